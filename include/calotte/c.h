@@ -128,7 +128,7 @@ CALOTTE_C_API calotte_status calotte_delaunay(const double* points, int64_t n,
                                               const calotte_surface* surface, calotte_mesh** mesh,
                                               calotte_error* error);
 
-/** What a mesh holds; the pointers are valid until it is freed. */
+/** The contents of a mesh; the pointers are valid until it is freed. */
 typedef struct calotte_triangulation {
   size_t size;                  /**< sizeof(calotte_triangulation) */
   int64_t dimensions;           /**< 3 on the sphere, 2 in a plane */
@@ -159,8 +159,7 @@ CALOTTE_C_API calotte_status calotte_check(const calotte_mesh* mesh, calotte_err
 /** Locates n positions in the triangles of a mesh. An output that is null is not computed for the
  * caller.
  * positions: 3 numbers each on the sphere, 2 in a plane.
- * triangles: n; the triangle that holds the position, of several the lowest; -1 outside of an open
- * mesh.
+ * triangles: n; the lowest triangle that contains the position; -1 outside of an open mesh.
  * weights: 3 n; barycentric weights of the triangle's corners, from 0 to 1; NaN outside.
  * nearest: n; the nearest site, of several the lowest. */
 CALOTTE_C_API calotte_status calotte_locate(const calotte_mesh* mesh, const double* positions,
@@ -189,7 +188,7 @@ CALOTTE_C_API void calotte_cells_free(calotte_cells* cells);
 CALOTTE_C_API calotte_status calotte_voronoi(const calotte_mesh* mesh, calotte_cells** cells,
                                              calotte_error* error);
 
-/** What cells hold, as calotte::Voronoi documents it; the pointers are valid until they are freed.
+/** The contents of cells, see calotte::Voronoi; the pointers are valid until they are freed.
  * Cell i has the entries begin[i] to begin[i + 1] - 1 of the next three arrays. -1 stands for a
  * missing cell or edge along a boundary. In a plane the third coordinate is 0. */
 typedef struct calotte_tessellation {
@@ -235,7 +234,7 @@ typedef int (*calotte_progress)(int64_t iterations, double residual, void* data)
 /** Instead of a number of a recipe: the library chooses, as the member says. */
 #define CALOTTE_AUTOMATIC (-1)
 
-/** What a user asks for, as calotte::Recipe, which documents the ranges. Initialised by
+/** A request for a grid, see calotte::Recipe, which documents the ranges. Initialised by
  * calotte_recipe_init(), it lacks a number of cells only. A number means itself, also 0. A default
  * other than 0 and null stands in brackets. */
 typedef struct calotte_recipe {
@@ -278,8 +277,8 @@ typedef struct calotte_recipe {
   /** Exactly this number of evaluations of each level, >= 1, instead of norm, tolerance and
    * max_iterations. Automatic: these end the run. [CALOTTE_AUTOMATIC] */
   int64_t iterations;
-  /** 1: shapes are brought within the limits of models at the end; 0: a pure CVT. Automatic: 1 for
-   * the start multilevel unless `iterations` is given, else 0. [CALOTTE_AUTOMATIC] */
+  /** 1: shapes are brought within the limits of models at the end; 0: they are not. Automatic: 1
+   * for the start multilevel unless `iterations` is given, else 0. [CALOTTE_AUTOMATIC] */
   int64_t well_centred;
   double least_spacing;        /**< of that end: the least edge over the spacing; 0 to 0.95 [0.8] */
   int64_t seed;                /**< of random points [1] */
@@ -336,8 +335,8 @@ CALOTTE_C_API calotte_status calotte_make_grid(const calotte_recipe* recipe,
                                                calotte_mesh** mesh, calotte_report* report,
                                                calotte_error* error);
 
-/** What follows from a recipe before any generator moves, as calotte::Schedule. The first seven
- * members are those of the caller; calotte_plan() fills the others. */
+/** The plan that follows from a recipe, before any generator moves, see calotte::Schedule. The
+ * first seven members are those of the caller; calotte_plan() fills the others. */
 typedef struct calotte_schedule {
   size_t size; /**< sizeof(calotte_schedule) */
   /** Length of the following five arrays of the caller; a run has at most 31 actions. Each array

@@ -29,7 +29,8 @@ struct CutOptions {
   /// file of static or initial fields keeps the radius that these were made with. Default: 1; none
   /// keeps that of the source.
   std::optional<double> sphere_radius = 1;
-  /// That of the new file. Default: that of MPAS-Atmosphere, see models(); none keeps the source's.
+  /// The order of verticesOnCell in the new file. Default: that of MPAS-Atmosphere, see models();
+  /// none keeps the source's.
   std::optional<VertexOrder> vertex_order = VertexOrder::before_edges;
   std::vector<FieldDimension> dimensions = {}; ///< new ones, see models(). Default: none.
   /// How the file was made; precedes the source's attribute `history`. Default: empty.
@@ -38,14 +39,14 @@ struct CutOptions {
   ProgressCallback progress = {};
 };
 
-/// What cut() made.
+/// The result of cut().
 struct CutReport {
   std::int64_t cells = 0;                  ///< of the new mesh
   std::int64_t edges = 0;                  ///< of the new mesh
   std::int64_t vertices = 0;               ///< of the new mesh
   std::vector<std::int64_t> cells_by_mask; ///< rings + 1: inside, then by ring
-  /// Variables of the source that the new file does not have: strings, types of users, and lists
-  /// that the model makes itself (advCells, advCellsForEdge).
+  /// Variables of the source that the new file lacks: strings, user-defined types, and lists that
+  /// the model makes itself (advCells, advCellsForEdge).
   std::vector<std::string> left_out;
   double sphere_radius = 1;                            ///< of the new file
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of the new file
@@ -54,14 +55,14 @@ struct CutReport {
 /// Cuts a limited-area grid from an MPAS file of the sphere, as limited_area_mask() selects its
 /// cells, and carries all fields along.
 ///
-/// The new file holds the selected cells with every edge and vertex that touches one, in the order
-/// of the source, and:
+/// The new file has the selected cells with every edge and vertex that touches one, in the order of
+/// the source, and:
 ///
 /// - each variable with a dimension nCells, nEdges or nVertices, without the rows left out, of any
 ///   type and with any other dimensions; all others, all attributes and dimensions;
 /// - ids numbered anew from 1 on, 0 for a missing cell, edge or vertex at its index in the list;
 ///   the weights of missing edges in weightsOnEdge are 0; verticesOnCell has the order of
-///   CutOptions::vertex_order. Else all values keep their bits; measures at the boundary, such as
+///   CutOptions::vertex_order. All other values keep their bits; measures at the boundary, such as
 ///   kiteAreasOnVertex, are those of the source;
 /// - boundaryVertex 1 where a vertex lacks a cell, if the source has the variable;
 /// - bdyMaskCell, bdyMaskEdge and bdyMaskVertex, see limited_area_mask() and least_mask();
@@ -76,13 +77,13 @@ struct CutReport {
 /// NAME.graph.info is written beside NAME.nc. Both are complete or absent. The file is a classic
 /// one, with 64-bit offsets if possible.
 /// \param source an MPAS file with connectivity, written by any program.
-/// \throws Error invalid_argument as limited_area_mask(), for a source that holds no such mesh, for
-///         a radius that is not positive and finite, and for a variable with two of the dimensions;
-///         parse; cancelled; file.
+/// \throws Error invalid_argument as limited_area_mask(), for a source that contains no such mesh,
+///         for a radius that is not positive and finite, and for a variable with two of the
+///         dimensions; parse; cancelled; file.
 CutReport cut(const std::string& source, const std::string& target, const Surface& region,
               const CutOptions& options = {});
 
-/// The same with another kind of region.
+/// The same with a region given by a function.
 /// \param inside whether a point on the sphere of the source lies in the region. Several threads
 ///        call it at once.
 CutReport cut(const std::string& source, const std::string& target,
@@ -93,15 +94,15 @@ CutReport cut(const std::string& source, const std::string& target,
 /// the grid's region with their rings, see limited_area_mask(), and the masks of cut(). The cells
 /// are those of voronoi(mesh, mask).
 /// \param mesh of the wider region, as make_grid() makes it with Recipe::limited_area; its surface
-///        holds the region and its rings.
-/// \param region that of the recipe.
+///        contains the region and its rings.
+/// \param region the region of the recipe.
 /// \param options of an MPAS file; vertices of cells are paired as MPAS-Atmosphere does unless they
 ///        say otherwise; site_density and fields have no effect.
 /// \throws Error as limited_area_mask(), voronoi() and write().
 CutReport write_limited_area(const std::string& target, const Mesh& mesh, const Surface& region,
                              const WriteOptions& options = {});
 
-/// A field that tells the sea from the land.
+/// A field that distinguishes sea from land.
 struct SeaField {
   std::string path;     ///< NetCDF file; empty for the source
   std::string variable; ///< one number for each cell; empty for no field
@@ -119,14 +120,14 @@ struct CullOptions {
   /// than 1.
   double land_fraction = 0.5;
   SeaField field = {}; ///< in addition to these. Default: none.
-  /// Lines that stay open: all cells on them are sea. Each 3 x points, unit columns, joined by arcs
-  /// of great circles. One that is on land and reaches no sea is an error. Default: none.
+  /// Lines that stay open: all cells on them are sea. Each is 3 x points, unit columns, joined by
+  /// arcs of great circles. A line on land that reaches no sea is an error. Default: none.
   std::vector<Points3> passages = {};
   std::vector<Points3> barriers = {}; ///< lines whose cells are land, unless on a passage
   /// Cells with a single neighbour in the sea become land, repeatedly. Default: true.
   bool fill = true;
   Points3 seeds = {}; ///< points in the sea, unit columns. Default: none, its largest part.
-  /// File for what is culled: the variables cullCell and regionCellMasks (1 for land), and
+  /// File for the culled cells: the variables cullCell and regionCellMasks (1 for land), and
   /// landFraction if there is a coast or a raster (of both the greater), by cell of the source.
   /// Default: empty, no file.
   std::string mask_path = {};
@@ -143,7 +144,7 @@ struct CullOptions {
   ProgressCallback progress = {}; ///< stage: write. A cancelled run leaves no file.
 };
 
-/// What cull() made.
+/// The result of cull().
 struct CullReport {
   std::int64_t cells = 0;                              ///< of the new mesh
   std::int64_t edges = 0;                              ///< of the new mesh
@@ -151,13 +152,13 @@ struct CullReport {
   double sphere_radius = 1;                            ///< of the new file
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of the new file
   std::int64_t land = 0;             ///< cells that coast, raster and field make land
-  SeaReport sea;                     ///< what followed
+  SeaReport sea;                     ///< decisions of sea_cells()
   std::vector<std::string> left_out; ///< variables, as CutReport::left_out
 };
 
-/// Removes the land cells from an MPAS file of the sphere, see sea_cells(), and carries all
-/// fields along, as cut() does. The new file holds the sea's cells, with every edge and vertex that
-/// touches one, in the order of the source. As MPAS-Tools leaves them:
+/// Removes the land cells from an MPAS file of the sphere, see sea_cells(), and carries all fields
+/// along, as cut() does. The new file has the cells of the sea, with every edge and vertex that
+/// touches one, in the order of the source. As in files of MPAS-Tools:
 ///
 /// - edges have their first cell: where that of the source is land, the cells of cellsOnEdge and
 ///   the vertices of verticesOnEdge are exchanged. angleEdge turns by pi, edgeNormalVectors and the

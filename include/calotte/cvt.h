@@ -55,7 +55,7 @@ enum class Boundary {
 
 /// The generators at the start of a run.
 struct CvtStart {
-  /// How they are made. In brackets: what a kind applies to, if not to all surfaces.
+  /// The kind of start. Brackets name the surfaces to which a kind is limited.
   enum class Kind {
     /// multilevel for a density that is not uniform, for a part of the sphere, in the plane and
     /// with fixed generators, unless bisections or iterations are given; otherwise continuation on
@@ -94,7 +94,7 @@ struct CvtStart {
   std::optional<int> insertion_rounds = {};
 };
 
-/// Where a run stops.
+/// The end of a run.
 struct CvtStop {
   Norm norm = Norm::l2_scaled; ///< compared with the tolerance; not none
   /// Stop when the norm is at most this; > 0 and finite. Default 1e-4 for a run that ends
@@ -104,45 +104,46 @@ struct CvtStop {
   /// This number of evaluations of each level, >= 1, instead of norm, tolerance and max_iterations.
   /// Default: none.
   std::optional<int> iterations = {};
-  /// Whether shapes are brought within the limits of models at the end. A pure CVT has few others,
-  /// at dislocations, pairs of cells with 5 and 7 neighbours. First, dislocations at short Voronoi
-  /// edges are moved along their rows, and the generators around them relax.
-  /// Then the polish minimises the energy plus a penalty for what is left beyond the limits: angles
-  /// of triangles from 38 to 87 degrees, Voronoi edges from 0.21 to 1.1 times the length of the
-  /// Delaunay edges across, and these from least_spacing to 1.3 times the spacing that the density
-  /// demands. It moves generators next to such shapes away from their centroids. The mesh is
-  /// well-centred if no cotangent and no ratio exceeds its limit by 0.03. Default: with kind
-  /// multilevel, unless iterations are given.
+  /// Whether shapes are brought within the limits of models at the end. A CVT without this has few
+  /// shapes beyond them, at dislocations, which are pairs of cells with 5 and 7 neighbours. First,
+  /// dislocations at short Voronoi edges are moved along their rows, and the generators around them
+  /// relax. Then the polish minimises the energy plus a penalty for the remaining shapes beyond the
+  /// limits: angles of triangles from 38 to 87 degrees, Voronoi edges from 0.21 to 1.1 times the
+  /// length of the Delaunay edges across, and these from least_spacing to 1.3 times the spacing
+  /// that the density demands. It moves generators next to such shapes away from their centroids.
+  /// The mesh is well-centred if no cotangent and no ratio exceeds its limit by 0.03. Default: with
+  /// kind multilevel, unless iterations are given.
   std::optional<bool> well_centred = {};
-  /// At that end: the least length of a Delaunay edge over the spacing that the density demands
-  /// there; 0 to 0.95. Values near 1 move many generators away from their centroids.
+  /// At a well-centred end: the minimum length of a Delaunay edge, in units of the spacing that the
+  /// density demands there; 0 to 0.95. Values near 1 move many generators away from their
+  /// centroids.
   double least_spacing = 0.8;
 };
 
-/// What a user asks for.
+/// A request for a grid.
 struct Recipe {
   /// Number of cells of the grid, 12 to 2^30, 4 in a part of the sphere, 3 in the plane; fixed
-  /// generators among them. 0, the default: as many as the widths imply, or of the start's points.
-  /// The number that rounds of insertion come nearest to, where fixed ones leave no edge to change.
+  /// generators among them. 0, the default: as many as the widths imply, or as the start has
+  /// points. Where fixed generators leave no edge to change, the grid has the nearest number that
+  /// rounds of insertion reach.
   std::int64_t cells = 0;
-  /// How large cells are beside each other, by a density; or cell widths in km, in a plane in its
-  /// unit, which cover the surface. A number is a width, and a raster has widths. Default: a
-  /// uniform density.
+  /// The relative size of cells, by a density; or cell widths in km, in a plane in its unit, which
+  /// cover the surface. A number is a width, and a raster has widths. Default: a uniform density.
   std::variant<Density, Widths> resolution = {};
   double radius_km = earth_radius_km; ///< of the sphere that widths refer to; > 0 and finite
   Surface surface = {};               ///< default: the sphere
   /// The grid is a limited area: the run covers the surface, a part of the sphere, with the rings
   /// around it that write_limited_area() writes. It requires widths.
   bool limited_area = false;
-  /// Directions of a box in which it ends at walls. The run covers a wider box, whose gap beyond
-  /// the walls holds more cells; walled() takes those between them. Default: none.
+  /// The directions in which a box ends at walls. The run covers a wider box, with further cells in
+  /// a gap beyond the walls; walled() selects the cells between the walls. Default: none.
   Walls walls = {};
   Boundary boundary = Boundary::clip; ///< of a bounded surface
   /// Generators that stay where they are, 3 x n, the first columns of the result. A unit column, up
   /// to round-off, keeps its bits. Default: none.
   Points3 fixed = {};
-  /// Lines that generators follow, such as rivers; those stay, after the fixed ones. See
-  /// line_points(). Default: none.
+  /// Lines that generators follow, such as rivers. These generators stay, too; they come after the
+  /// fixed ones. See line_points(). Default: none.
   std::vector<Points3> lines = {};
   CvtStart start = {};                       ///< the generators to begin with
   CvtStop stop = {};                         ///< the end of the run
@@ -189,42 +190,42 @@ struct CvtRegion {
   double seconds = 0;     ///< time of its tasks since the last assignment of sites to regions
 };
 
-/// The value that the tolerance is compared with; 0 for Norm::none.
+/// The value to compare with the tolerance; 0 for Norm::none.
 double norm_of(const CvtIteration& iteration, Norm norm);
 
-/// A step of a run: what happens to the generators, and the descent that follows.
+/// A step of a run: a change of the generators, and the descent that follows.
 struct CvtAction {
-  /// What happens.
+  /// The kind of change.
   enum class Kind {
     start,    ///< the generators of the start
     bisect,   ///< a generator at the midpoint of each edge begins the next level
     insert,   ///< a round of insertion and contraction, see split_and_collapse()
-    converge, ///< nothing: the generators of the last round descend to the end that is asked for
+    converge, ///< none: the generators of the last round descend to the requested end
     polish,   ///< the descent minimises a penalty for shapes, too, see CvtStop::well_centred
-    raise,    ///< the polish goes on with a larger penalty, where it fell short
+    raise,    ///< the polish continues with a larger penalty, where it did not suffice
   };
   Kind kind = Kind::start; ///< see Kind
-  /// Number of generators at its end; of `start` and `bisect` at that of the rounds which follow.
-  /// After bisections of a part of a surface with a boundary, where midpoints outside are left out,
-  /// there may be fewer.
+  /// The number of generators at the end of the action; for `start` and `bisect`, at the end of the
+  /// rounds that follow. After bisections on a surface with a boundary there may be fewer, as
+  /// midpoints outside are not added.
   std::int64_t cells = 0;
-  /// How often, at most: a round after a long descent counts for two, and a penalty is raised only
-  /// where it helps. The last level has further rounds until it has its number of cells. Each time
-  /// a descent follows, but the last round of that level is followed by `converge`.
+  /// The maximum number of times. A round after a long descent counts as two, and a penalty is
+  /// raised only where that helps. The last level has further rounds until it has its number of
+  /// cells. A descent follows each time; the last round of that level is followed by `converge`.
   int times = 1;
   Norm norm = Norm::l2_scaled; ///< of each descent; in a polish shapes decide
   double tolerance = 0;        ///< of this norm; 0 with Norm::none and in a polish
   int max_iterations = 0;      ///< evaluations of each descent
 };
 
-/// What follows from a recipe before any generator moves.
+/// The plan that follows from a recipe, before any generator moves.
 struct Schedule {
   /// The recipe with its choices made: the number of cells, the surface that the run covers, the
   /// fixed generators with those on lines and on the boundary, the kind of start, its rounds, the
   /// end, and as the resolution the density.
   Recipe recipe;
-  Density density;                                ///< that the run follows, on its surface
-  std::optional<WidthField> widths;               ///< that give it, see width_field(); none without
+  Density density;                  ///< of the run, on its surface
+  std::optional<WidthField> widths; ///< that give the density, see width_field(); or none
   CvtStart::Kind first = CvtStart::Kind::density; ///< how the points of the first level are made
   std::vector<CvtAction> actions;                 ///< of the run, in order
   double implied_cells = 0;                       ///< by the widths; 0 without
@@ -233,11 +234,11 @@ struct Schedule {
   double from_lines = 0;        ///< see LinePoints::farthest
 };
 
-/// What was done of an action.
+/// The executed part of an action.
 struct CvtDone {
   int times = 0;          ///< rounds or raises that were made; 1 for other actions
   int iterations = 0;     ///< evaluations of its descents
-  std::int64_t cells = 0; ///< number of generators at its end; 0 if it was left out
+  std::int64_t cells = 0; ///< number of generators at its end; 0 if it was skipped
 };
 
 /// The course of a run.
@@ -246,16 +247,16 @@ struct CvtReport {
   /// iterations are done.
   bool converged = false;
   bool well_centred = false; ///< a polish brought all shapes within their limits
-  /// After a polish that did not: the number of cells whose triangles are beyond a limit.
+  /// After a polish that did not succeed: the number of cells whose triangles are beyond a limit.
   std::int64_t cells_beyond_limits = 0;
   std::int64_t worst_cell = -1; ///< one with the shape farthest beyond; -1 for none
   /// With Boundary::generators: the number of the mesh's outer edges that do not join generators on
-  /// the boundary, or that are missing there; 0 if the mesh ends at the boundary all around. It may
-  /// leave it where the surface, or what it leaves out, is narrower than a cell.
+  /// the boundary, or that are missing there; 0 if the mesh ends at the boundary all around. The
+  /// mesh may leave the boundary where the surface, or a gap in it, is narrower than a cell.
   std::int64_t off_boundary = 0;
-  double residual = 0;                  ///< the selected norm at the end of the run
-  std::vector<CvtAction> actions;       ///< all of the schedule, in order
-  std::vector<CvtDone> done;            ///< of each; of fewer while it runs, or if it was stopped
+  double residual = 0;            ///< the selected norm at the end of the run
+  std::vector<CvtAction> actions; ///< all of the schedule, in order
+  std::vector<CvtDone> done;      ///< of each action; of fewer during a run, or if it was stopped
   std::vector<CvtIteration> iterations; ///< all evaluations, of all levels, in order
   std::vector<CvtRegion> regions;       ///< of the last level
   double seconds = 0; ///< wall-clock time of the run, including the parts before a resumption
@@ -297,12 +298,12 @@ struct Cvt {
   CvtReport report; ///< how the run went
 };
 
-/// Splits the longest edges of a mesh at their midpoints and collapses the shortest edges to
-/// theirs. Lengths are relative to the spacing h ~ rho^(-1/4) at the ends of the edge. No end of a
-/// chosen edge is an end of another one or next to it; if a mesh has no more such edges, fewer are
-/// chosen. Equal lengths are ordered by the edges' ends. Edges at a site with 8 neighbours or more
-/// count as twice as long, those at a site with 4 or fewer as half as long. On a bounded surface
-/// edges are chosen whose midpoint lies inside.
+/// Splits the longest edges of a mesh at their midpoints and collapses the shortest edges to their
+/// midpoints. Lengths are relative to the spacing h ~ rho^(-1/4) at the ends of the edge. No end of
+/// a chosen edge is an end of another one or next to it; if a mesh has no more such edges, fewer
+/// are chosen. Equal lengths are ordered by the edges' ends. Edges at a site with 8 neighbours or
+/// more count as twice as long, those at a site with 4 or fewer as half as long. On a bounded
+/// surface edges are chosen whose midpoint lies inside.
 ///
 /// In a graded mesh of minimal CVT energy, pairs of cells with 5 and 7 neighbours (dislocations)
 /// let rows of cells end. A descent cannot create them; this function can.

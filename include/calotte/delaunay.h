@@ -26,14 +26,14 @@ enum class RegionOverlap {
 
 /// How the centres of the regions are chosen.
 enum class RegionCentres {
-  /// A coarse CVT of a sample of the sites, so that regions hold about equal work; the default.
+  /// A coarse CVT of a sample of the sites, so that regions have about equal work; the default.
   sample,
   /// A Fibonacci lattice on the sphere, or in the plane over the bounding box of the sites. It
   /// ignores the density of the sites.
   fibonacci,
 };
 
-/// How the sites are divided into regions, which are triangulated in parallel. These options affect
+/// The division of the sites into regions, which are triangulated in parallel. These options affect
 /// time and memory, not the result.
 ///
 /// A function that takes them throws Error invalid_argument for an option out of range; for a
@@ -50,7 +50,7 @@ struct Decomposition {
   RegionOverlap overlap = RegionOverlap::halo; ///< no effect if there is one region
 };
 
-/// What happens to points of equal direction, in the plane of equal position, and to points that
+/// The treatment of points of equal direction, in the plane of equal position, and of points that
 /// merge_within joins.
 enum class Duplicates {
   merge,  ///< they become one site, that of the lowest index; the default
@@ -139,17 +139,18 @@ struct Triangulation {
 ///         the plane or is outside the box; a plane with one period, whose meshes come from
 ///         make_grid() or a file. Also not_finite, zero_vector (on the sphere), duplicate (when
 ///         refused); too_few_sites, for fewer than 3 distinct points, and if a circle wider than
-///         half of the box holds none; degenerate, for points on one great circle or line;
+///         half of the box contains none; degenerate, for points on one great circle or line;
 ///         cancelled by options.progress.
 Triangulation triangulate(const PointsRef& points, const Surface& surface = {},
                           const DelaunayOptions& options = {});
 
-/// As above, for points handed over, as in triangulate(std::move(points)): on the sphere the mesh
-/// takes them over without a copy, unless some of them merge.
+/// The same for points that the function may move, as in triangulate(std::move(points)): on the
+/// sphere the mesh takes them without a copy, unless some of them merge.
 Triangulation triangulate(Points3&& points, const Surface& surface = {},
                           const DelaunayOptions& options = {});
 
-/// As above, for all else of Eigen: without it most would convert to both PointsRef and Points3.
+/// The same for other types of Eigen: without this overload, most would convert to both PointsRef
+/// and Points3.
 template <EigenMatrix Points>
 Triangulation triangulate(const Points& points, const Surface& surface = {},
                           const DelaunayOptions& options = {}) {
@@ -162,13 +163,13 @@ inline Mesh delaunay(const PointsRef& points, const Surface& surface = {},
   return triangulate(points, surface, options).mesh;
 }
 
-/// As above, for points handed over.
+/// The same for points that the function may move.
 inline Mesh delaunay(Points3&& points, const Surface& surface = {},
                      const DelaunayOptions& options = {}) {
   return triangulate(std::move(points), surface, options).mesh;
 }
 
-/// As above, for all else of Eigen.
+/// The same for other types of Eigen.
 template <EigenMatrix Points>
 Mesh delaunay(const Points& points, const Surface& surface = {},
               const DelaunayOptions& options = {}) {

@@ -55,8 +55,8 @@ struct Density {
   Kind kind = Kind::uniform; ///< what determines the density
   std::vector<DensityBump> bumps =
       {}; ///< combined by maximum or sum, of which there is one at least
-  /// Of Kind::widths, as density_of() makes them. A uniform density with these, a callable or bumps
-  /// is ill-formed; for other kinds they have no effect.
+  /// The widths of Kind::widths, which density_of() makes. A uniform density with these, a callable
+  /// or bumps is ill-formed; for other kinds they have no effect.
   std::shared_ptr<const density_detail::SampledWidths> widths = {};
   Callable callable = {}; ///< not empty for Kind::callable; see `widths`
 
@@ -86,9 +86,10 @@ Density site_density(const Density& density, const Surface& surface = {});
 ///         density; a callable's value that is negative, infinite or NaN.
 DoubleVector evaluate(const Density& density, const PointsRef& points, const Surface& surface = {});
 
-/// The density that values at the sites of a mesh give everywhere on its surface: rho^(-1/4), which
-/// cell widths are proportional to, is linear on each triangle, on the sphere of unit vectors. With
-/// a period it is periodic. Outside an open mesh the nearest triangle found holds.
+/// The density that interpolates values at the sites of a mesh on its whole surface: rho^(-1/4),
+/// which cell widths are proportional to, is linear on each triangle, on the sphere of unit
+/// vectors. With a period it is periodic. Outside an open mesh the nearest triangle found
+/// determines the density.
 /// \param mesh the density keeps a copy of what it needs.
 /// \param density n values >= 0, finite, by site.
 /// \throws Error invalid_argument for another number of values, a value out of range, no triangle,
@@ -96,7 +97,7 @@ DoubleVector evaluate(const Density& density, const PointsRef& points, const Sur
 ///         a site more than 2^30 periods from the box.
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density);
 
-/// The density that a raster gives between its nodes.
+/// The density that interpolates a raster.
 /// \param density values >= 0, finite.
 /// \throws Error invalid_argument if it violates the conditions of Raster, and naming the node, for
 ///         a value out of range.

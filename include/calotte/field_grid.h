@@ -40,8 +40,8 @@ struct FieldGrid {
 /// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name.
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all);
 
-/// The same of a file of fields without their mesh, such as a model's history, and of the file of
-/// the mesh, whose cells its dimension nCells, or the only one of their number, stands for.
+/// The same for a file of fields without their mesh, such as a model's history, and a file of the
+/// mesh. The dimension of the mesh's cells is nCells, or the only dimension of their number.
 /// \throws Error as above; parse for a file without such a dimension; invalid_argument for a mesh
 ///         file that is a raster.
 FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
@@ -58,12 +58,12 @@ Polygons cells_of(const FieldGrid& grid);
 /// The weights from one grid to another.
 ///
 /// - conservative: see conservative_weights().
-/// - nearest: the cell, or box, that holds the centre of the target's cell.
+/// - nearest: the cell, or box, that contains the centre of the target's cell.
 /// - linear: on the triangles between the source's centres, or bilinear between a raster's nodes,
 ///   at the centre of the target's cell. Cells outside of the source have no weights.
 /// - natural_neighbours: from meshes.
 ///
-/// Areas are not set but for conservative weights.
+/// Areas are set only for conservative weights.
 /// \throws Error invalid_argument for grids on different surfaces; as conservative_weights(),
 ///         interpolation_weights(), cells_of().
 GridWeights interpolation_weights(const FieldGrid& source, const FieldGrid& target,
@@ -93,12 +93,12 @@ GridWeights read_weights(const std::string& path);
 /// dimension of the cells has the name that the mesh's format gives it, such as nCells. Another
 /// suffix writes the mesh with its fields, see write().
 /// \param history attribute; empty for none.
-/// \param source NetCDF file that the fields are from; empty for none. What it says of their other
-///        dimensions goes into the file as it is: coordinates such as time and lev with bounds and
+/// \param source NetCDF file that the fields are from; empty for none. Its data on their other
+///        dimensions are copied to the file: coordinates such as time and lev with bounds and
 ///        terms, times as text, scalar coordinates. An unlimited dimension stays so, where all have
 ///        it first.
-/// \throws Error invalid_argument for a field without a value for each cell, or a suffix that does
-///         not hold the grid; file.
+/// \throws Error invalid_argument for a field without a value for each cell, or a suffix of a
+///         format that cannot store the grid; file.
 void write_fields(const std::string& path, const FieldGrid& grid,
                   const std::vector<MeshField>& fields, const std::string& history = {},
                   const std::string& source = {});

@@ -87,12 +87,12 @@ struct LinePoints {
 /// density demands of so many generators, from 2/3 to 5/3 of it. The lines are one network, however
 /// they are cut into parts. Where three lines or more meet, and where one ends, there is a
 /// generator, and where a line turns by 20 degrees or more, unless a sharper corner is nearer than
-/// two thirds of that distance. Of two generators nearer than that one is left out, of a
-/// confluence and an end the end: lines that run close to each other, or cross between their
+/// two thirds of that distance. Of two generators nearer than that, one is removed; of a confluence
+/// and an end, the end is removed. Lines that run close to each other, or cross between their
 /// points, share generators.
 /// \param lines each 3 x n, on the sphere directions joined by arcs shorter than a half circle, in
 ///        a plane x y 0. Points are shared if they are equal.
-/// \param surface of finite area, which holds the lines.
+/// \param surface of finite area, which contains the lines.
 /// \param cells number of generators of the run, 3 to 2^30.
 /// \param beside other fixed generators, 3 x m, from which the result keeps that distance, too.
 /// \throws Error invalid_argument, naming line and point: no direction, not finite, opposite
@@ -135,9 +135,10 @@ Points3 geodesic_sphere(std::int64_t b, std::int64_t c);
 /// \param n 12 to 2^30, but not 13, for which there is no such triangulation.
 Points3 geodesic_sphere(std::int64_t n);
 
-/// A number of points for a uniform grid. Of the numbers of symmetric geodesic grids it is the
-/// nearest, of two the larger; within 0.5 percent that of a bisected icosahedron, which many models
-/// know, comes first. If none is within 0.5 percent: the number itself, rounded.
+/// A number of points for a uniform grid, near a given one. It is the number of a bisected
+/// icosahedron, which many models support, if that is within 0.5 percent; else the nearest number
+/// of a symmetric geodesic grid within 0.5 percent, of two equally near ones the larger; else the
+/// given number, rounded.
 /// \param points 12 to 2^30.
 std::int64_t geodesic_count(double points);
 
@@ -155,7 +156,7 @@ Points3 cubed_sphere(std::int64_t m);
 /// The points of a mesh, unchanged, followed by the midpoints of its edges, in the order of the
 /// triangles; edge i of a triangle is opposite vertex i. On the sphere a midpoint is a unit column;
 /// in a periodic direction it is that between nearest copies, moved into [0, period). On a bounded
-/// surface midpoints outside are left out. A closed mesh of n points gives 4n - 6 points on the
+/// surface, midpoints outside are not added. A closed mesh of n points gives 4n - 6 points on the
 /// sphere, 4n in a box.
 /// \throws Error invalid_argument if an id is out of range.
 Points3 bisect(const Mesh& mesh);

@@ -31,18 +31,20 @@ namespace calotte {
 ///         line_points() and evaluate().
 Schedule plan(Recipe recipe);
 
-/// What affects a run's course, but not its result, and where it goes on.
+/// Options that affect a run's time and memory, and the state from which it continues.
 struct RunOptions {
   Decomposition decomposition = {}; ///< see Decomposition
   ProgressCallback progress = {};   ///< called after each accepted iteration
-  /// Of an earlier run of the same recipe, which goes on. Its actions and its number of fixed
-  /// generators are compared; that the density and the surface are the same is the caller's care.
+  /// The state of an earlier run of the same recipe, which continues. Its actions and its number of
+  /// fixed generators are compared with the recipe. The caller must ensure that the density and the
+  /// surface are the same.
   std::optional<CvtState> state = {};
 };
 
-/// A centroidal Voronoi tessellation as a recipe asks for it: plan(), the points of the start, and
-/// the descents of the schedule. It moves the generators until they are, up to the tolerance, the
-/// centroids of their cells, and minimises the energy, the sum over cells of the integral of rho
+/// Makes the centroidal Voronoi tessellation of a recipe: calls plan(), makes the points of the
+/// start, and executes the descents of the schedule. These move the generators until they are, up
+/// to the tolerance, the centroids of their cells, and minimise the energy, the sum over cells of
+/// the integral of rho
 /// |x - x_i|^2; on the sphere the constrained centroids (Jacobsen et al., 2013, Sect. 3.3).
 ///
 /// The result has the same bits for any number of threads and regions, and for a run that a state
@@ -55,10 +57,10 @@ struct RunOptions {
 ///         ones, and for the state of a run with other levels.
 Cvt make_grid(const Recipe& recipe, RunOptions options = {});
 
-/// The run of a schedule, as plan() returns it.
+/// Executes a schedule that plan() has returned.
 Cvt make_grid(const Schedule& schedule, RunOptions options = {});
 
-/// A value with its word, as options, files and other languages name it.
+/// A value with its name in options, files and other languages.
 template <class Value> struct NamedValue {
   std::string_view word; ///< as in options of the command
   Value value;           ///< what it stands for

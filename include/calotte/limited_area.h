@@ -17,7 +17,7 @@ namespace calotte {
 inline constexpr int limited_area_rings = 7;
 
 /// Selects the cells of a limited-area grid: those inside, and rings of boundary cells around them.
-/// Ring 1 holds the other neighbours of the cells inside, ring k + 1 those of ring k.
+/// Ring 1 contains the other neighbours of the cells inside, ring k + 1 those of ring k.
 ///
 /// No selected cell has a single selected neighbour, or none: such cells are removed until none is
 /// left. In a closed mesh with at least one ring there are none: a cell of ring k has a neighbour
@@ -40,9 +40,9 @@ Ids limited_area_mask(const IdLists& cells_on_cell, const std::vector<std::uint8
 /// \returns by edge or vertex; -1 where no selected cell is.
 Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count);
 
-/// The region that a run meshes for a limited-area grid: another one, the rings around it and some
-/// cells more, so that the outermost ring has whole cells. The whole sphere where that is larger
-/// than widened() allows.
+/// The region that a run meshes for a limited-area grid: the given region, the rings around it and
+/// some further cells, so that the outermost ring has whole cells. The whole sphere where that is
+/// larger than widened() allows.
 /// \param surface a region of the sphere.
 /// \param widths of the sphere.
 /// \throws Error as widened() and evaluate(); invalid_argument for a plane, and naming a point on

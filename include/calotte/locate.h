@@ -10,23 +10,24 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Where positions lie in a mesh; one element, or column, for each position.
+/// The locations of positions in a mesh; one element, or column, for each position.
 struct Locations {
-  /// The triangle that holds the position, of several that hold it the lowest: triangles include
-  /// their edges and vertices. -1 outside of an open mesh. Exact.
+  /// The triangle that contains the position, the lowest of several: triangles include their edges
+  /// and vertices. -1 outside of an open mesh. Exact.
   Ids triangle;
   /// 3 x n, barycentric: the position, or on the sphere its direction, is the sum of the triangle's
   /// vertices, unit vectors on the sphere, times the weights, up to a factor. From 0 to 1, their
   /// sum is 1; exactly 0 on the edge across. NaN outside.
   Triples weights;
-  /// The nearest site, the lowest of those that are equally near: that whose Voronoi cell holds the
-  /// position. Exact in a Delaunay triangulation and in a part of one, also where sites have no
+  /// The nearest site, whose Voronoi cell contains the position; the lowest of those that are
+  /// equally near. Exact in a Delaunay triangulation and in a part of one, also where sites have no
   /// triangle.
   Ids nearest;
 };
 
-/// Where positions are in a mesh, prepared once for many calls, which threads may make at the same
-/// time. With a period the positions may lie outside of the box: their copies inside are located.
+/// Locates positions in a mesh. It is prepared once for many calls, which threads may make at the
+/// same time. With a period the positions may lie outside of the box: their copies inside are
+/// located.
 ///
 ///     const Locator locator(mesh);
 ///     const Locations before = locator.find(positions);
@@ -48,14 +49,14 @@ public:
 
   /// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0,
   ///        in the unit of the mesh, and in a periodic direction at most 2^30 periods from the box.
-  /// \param hints for each position a triangle near it, or -1 for none, as an earlier result has
-  ///        them. They change no result in a Delaunay triangulation. Default: none.
+  /// \param hints for each position a triangle near it, such as an earlier result, or -1 for none.
+  ///        They change no result in a Delaunay triangulation. Default: none.
   /// \throws Error invalid_argument: another number of rows or of hints; with the index of the
   ///         position a z in the plane, a distance above 2^30 periods, or a hint that is no
   ///         triangle; not_finite and zero_vector (on the sphere), with the index of the position.
   Locations find(const PointsRef& positions, const Ids& hints = {}) const;
 
-  /// As find(...).nearest, in less time. \throws Error as find().
+  /// The same as find(...).nearest, in less time. \throws Error as find().
   Ids nearest(const PointsRef& positions, const Ids& hints = {}) const;
 
 private:
@@ -63,7 +64,7 @@ private:
   std::shared_ptr<const Prepared> prepared_;
 };
 
-/// As Locator(mesh).find(positions), in less time where it is the only search in the mesh.
+/// The same as Locator(mesh).find(positions); faster for a single search in a mesh.
 Locations locate(const Mesh& mesh, const PointsRef& positions);
 
 } // namespace calotte

@@ -72,7 +72,7 @@ template <class Items, class Begin = Offsets> struct Lists {
   auto operator[](std::int64_t i) const {
     return std::span(items.data() + begin.data()[i], length(i));
   }
-  /// The same, to be set.
+  /// The items of list i, for writing.
   auto operator[](std::int64_t i) { return std::span(items.data() + begin.data()[i], length(i)); }
 
 private:

@@ -34,7 +34,7 @@ struct Mesh {
   Points3 points = {};
   Triangles triangles = {};  ///< 3 x m site ids
   Triangles neighbours = {}; ///< 3 x m triangle ids, or -1
-  /// For each input column its site; a duplicate has the site of the lowest.
+  /// For each input column its site. A duplicate has the site of the lowest equal column.
   std::vector<std::int32_t> site_of_input = {};
   /// Where the points live; in a plane its rings clip the Voronoi cells. Default: the sphere.
   Surface surface = {};
@@ -53,7 +53,7 @@ struct Polygons {
   Points3 corners; ///< 3 x m unit columns; in a plane in any unit of length
   IdLists ids;     ///< 0-based corners of each polygon, counter-clockwise seen from outside
   Points3 centres; ///< 3 x n, as the corners; 3 x 0 if the file gives none
-  /// Where the corners live. Rings have no effect: the polygons are their own boundary.
+  /// The surface of the corners. Rings have no effect: the polygons are their own boundary.
   Surface surface = {};
 
   /// Their number.
@@ -63,10 +63,10 @@ struct Polygons {
 /// The neighbours of each site of a mesh: the sites at the other ends of its edges,
 /// counter-clockwise around it. Where the triangles surround a site, the list starts with the
 /// lowest, as Voronoi::cells_on_cell does; at an open boundary with the one that the boundary leads
-/// to, and it ends with the one that the boundary comes from. Of a site where the boundary passes
-/// more than once, the lists of its fans of triangles follow each other, by their first triangle.
-/// A site in no triangle has none. In a small periodic domain two sites may share more than one
-/// edge, and are then neighbours as often. Linear time.
+/// to, and it ends with the one that the boundary comes from. At a site where the boundary passes
+/// more than once, the lists of its fans of triangles follow each other, in the order of their
+/// first triangles. A site in no triangle has none. In a small periodic domain two sites may share
+/// more than one edge, and are then neighbours as often. Linear time.
 /// \param mesh as delaunay() or read_mesh() returns it; it may be open, and need not be Delaunay.
 /// \throws Error invalid_argument for ids out of range, and neighbours that do not match the
 ///         triangles, with the index of the triangle.
@@ -90,14 +90,14 @@ enum class Numbering {
 ///         index of the point.
 Mesh renumbered(const Mesh& mesh, Numbering numbering);
 
-/// Which part of a mesh a field belongs to.
+/// The part of a mesh that a field belongs to.
 enum class FieldLocation {
   cells, ///< the sites and their cells
   /// The pairs of sites that share an edge of a closed mesh, in the order of Voronoi: sorted by
   /// their lower site, then by their higher one.
   edges,
-  /// The triangles, whose circumcentres are the corners of cells. Of cells that are not Voronoi
-  /// cells: their corners.
+  /// The triangles, whose circumcentres are the corners of cells; for cells that are not Voronoi
+  /// cells, their corners.
   vertices,
 };
 
@@ -118,15 +118,15 @@ struct MeshField {
   /// order of `dimensions`, of which the last is the fastest. NaN where a file has its _FillValue.
   DoubleVector values = {};
   std::vector<FieldDimension> dimensions = {}; ///< none for one number for each
-  /// How many of the dimensions come before the location's in a file: 1 for (Time, nCells, levels).
+  /// The number of dimensions before the location's in a file: 1 for (Time, nCells, levels).
   int leading = 0;
   bool integer = false; ///< all are 32-bit integers, and NetCDF files store them as such
   bool single = false;  ///< NetCDF files store them as 32-bit floats; not of integers
   /// At edges: components along the edge's normal, from the lower to the higher site, or along its
   /// tangent. They change their sign where a numbering exchanges the two sites.
   bool directed = false;
-  /// Other attributes of text in NetCDF files, each a name and its text, that hold for the numbers
-  /// on any grid, such as standard_name and cell_methods.
+  /// Other text attributes in NetCDF files, each a name and its text, that are valid for the
+  /// numbers on any grid, such as standard_name and cell_methods.
   std::vector<std::array<std::string, 2>> attributes = {};
 
   /// Numbers for each cell, edge or vertex: the product of the dimensions' sizes.

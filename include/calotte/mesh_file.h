@@ -16,7 +16,8 @@
 #include <string>
 #include <vector>
 
-/// Mesh files as they are: a mesh or its cells, the fields on it, and what reading changed.
+/// The contents of mesh files: a mesh or its cells, the fields on it, and the changes that reading
+/// made.
 CALOTTE_API_BEGIN
 namespace calotte {
 
@@ -24,12 +25,12 @@ namespace calotte {
 /// \pre counter-clockwise; on the sphere each smaller than a hemisphere.
 DoubleVector areas(const Polygons& polygons);
 
-/// Polygons of a periodic plane in one without a period: each near its centre, or else near its
-/// first corner. Corners that are needed on both sides of a seam have copies, which follow the
-/// others. Other polygons stay as they are.
+/// Unwraps polygons of a periodic plane into a plane without a period: each near its centre, or
+/// else near its first corner. Corners that are needed on both sides of a seam have copies, which
+/// follow the others. Other polygons are unchanged.
 Polygons unwrapped(Polygons polygons);
 
-/// What polygons measure, and counts of those whose shape is not that of a centroidal Voronoi cell.
+/// Measures of polygons, and counts of those that are no centroidal Voronoi cells.
 struct PolygonShapes {
   ValueRange area; ///< steradians; in a plane the square of its unit
   /// Distance of the centres of two polygons that share a side, radians or the plane's unit; all 0
@@ -49,11 +50,11 @@ struct PolygonShapes {
   std::int64_t worst_centred = -1; ///< the polygon that has it; -1 without centres
 };
 
-/// Measures polygons. Those without corners, which are unknown, do not count.
+/// Measures polygons. Polygons without corners do not count.
 /// \pre counter-clockwise, each smaller than a hemisphere.
 PolygonShapes shapes(const Polygons& polygons);
 
-/// What keeps polygons from being the Voronoi cells of their centres.
+/// The reason why polygons are not the Voronoi cells of their centres.
 enum class CellFault {
   none,              ///< they are those of the whole sphere
   open,              ///< nothing, but they cover a part of the surface, and so does their mesh
@@ -96,22 +97,22 @@ NotVoronoi not_voronoi(const Polygons& polygons);
 ///          sphere if they cover it, else 0.
 CheckReport check(const Polygons& polygons);
 
-/// What a mesh file holds. At least one of `mesh` and `polygons` is present.
+/// The contents of a mesh file. At least one of `mesh` and `polygons` is present.
 struct MeshFile {
   std::string format = {}; ///< for messages, such as "MPAS" or "SCRIP"
 
-  /// The triangulation of the sites in canonical form. It is the file's. Cells alone have one if
-  /// they are the Voronoi cells of their centres; those of a part of the sphere, if each corner
-  /// that cells surround is the circumcentre of three centres: then it has their triangles, and no
-  /// others. No file holds the rings of a plane's surface, which clip the cells: a caller that
-  /// knows them may set `mesh->surface` for write().
+  /// The triangulation of the sites in canonical form, from the file. A file of cells has one if
+  /// they are the Voronoi cells of their centres. Cells of a part of the sphere have one if each
+  /// corner that cells surround is the circumcentre of three centres; it has the triangles of these
+  /// corners only. No file contains the rings of a plane's surface, which clip the cells: a caller
+  /// that knows them may set `mesh->surface` for write().
   std::optional<Mesh> mesh = {};
-  /// The file's cells, unless they are all the Voronoi cells of `mesh`; those of a part of the
-  /// sphere and of a plane with a boundary always.
+  /// The file's cells, unless they are exactly the Voronoi cells of `mesh`. Cells of a part of the
+  /// sphere or of a plane with a boundary are always here.
   std::optional<Polygons> polygons = {};
   NotVoronoi not_voronoi = {}; ///< why `polygons` do not follow from `mesh`; none without polygons
-  /// Whether the file holds cells, in its own order: `polygons`, or the Voronoi cells of `mesh`. In
-  /// other files `mesh` is what they hold, triangles or points.
+  /// Whether the file contains cells, in its own order: `polygons`, or the Voronoi cells of `mesh`.
+  /// Other files contain the triangles or points of `mesh`.
   bool has_cells = false;
 
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
@@ -130,7 +131,7 @@ struct MeshFile {
   }
   /// True if the rings of a plane's surface clip the cells of the mesh.
   bool is_clipped() const { return plane() && mesh->surface.is_bounded(); }
-  /// Where the mesh and the polygons live.
+  /// The surface of the mesh and the polygons.
   const Surface& surface() const { return mesh ? mesh->surface : polygons->surface; }
   /// The mesh if it is one of the sphere; otherwise null.
   const Mesh* sphere() const { return mesh && mesh->surface.is_sphere() ? &*mesh : nullptr; }
@@ -162,7 +163,7 @@ MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing
 ///         cell; as voronoi().
 MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls);
 
-/// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
+/// The fields that read_mesh_file() reads from NetCDF files; the others are among `ignored`.
 enum class FieldChoice {
   none,    ///< none, and no variable is among `ignored`
   scalars, ///< those with one number for each cell, edge or vertex
@@ -174,7 +175,7 @@ enum class FieldChoice {
 ///
 /// Clockwise triangles and polygons are turned if all run clockwise; in GeoJSON, whose polygons
 /// have either orientation, each is. Triangles start at their lowest vertex and are sorted.
-/// `changes` names what was done.
+/// `changes` names the changes.
 ///
 /// GeoJSON is a FeatureCollection. Polygons of one ring, longitude and latitude in degrees, are
 /// cells, whose corners agree to 1e-9 degrees; their sides are taken as arcs of great circles. The
@@ -194,8 +195,8 @@ enum class FieldChoice {
 MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
                         FieldChoice choice = FieldChoice::all);
 
-/// The part of a plane that a file covers: its mesh's surface if that is bounded or a box, or what
-/// its cells fill, provided that they are the Voronoi cells that this part clips.
+/// The part of a plane that a file covers: its mesh's surface if that is bounded or a box, or the
+/// part that its cells fill, provided that they are the Voronoi cells that this part clips.
 /// \returns none for other files, where boundaries touch, and for channels.
 std::optional<Surface> filled_surface(const MeshFile& file);
 
@@ -218,13 +219,13 @@ IdLists cell_neighbours(const MeshFile& file);
 /// \throws Error as voronoi().
 DoubleVector spacing_density(const MeshFile& file);
 
-/// What without_ears() removed.
+/// The triangles and sites that without_ears() removed.
 struct EarReport {
   std::int64_t triangles = 0; ///< with one neighbour, or none
   std::int64_t sites = 0;     ///< that no triangle was left with
 };
 
-/// What is left without ears.
+/// The result of without_ears().
 struct WithoutEars {
   MeshFile file;     ///< the rest
   EarReport removed; ///< counts
@@ -237,7 +238,7 @@ struct WithoutEars {
 /// left.
 WithoutEars without_ears(MeshFile file);
 
-/// A file of which a part of the mesh changed.
+/// A file after a change of a part of its mesh.
 struct ChangedFile {
   MeshFile file; ///< its mesh, polygons, density and fields
   /// Fields whose new cells have the value of the nearest old one.
@@ -245,46 +246,47 @@ struct ChangedFile {
   std::vector<std::string> left_out; ///< fields at edges and at vertices, which do not follow
 };
 
-/// Fields at cells, by name, whose values reach new cells in another way than by default: linear
-/// between the old cells, and for whole numbers that of the nearest old cell.
+/// Names of fields at cells whose values at new cells are not computed in the default way. The
+/// default is linear between the old cells, and for whole numbers the value of the nearest old
+/// cell.
 struct FieldMethods {
-  std::vector<std::string> nearest = {}; ///< that of the nearest old cell
+  std::vector<std::string> nearest = {}; ///< the value of the nearest old cell
   /// The mean over the new cell by the areas that it shares with old cells, see
-  /// conservative_weights(); of whole numbers that of the greatest area.
+  /// conservative_weights(); for whole numbers the value of the largest area.
   std::vector<std::string> conservative = {};
 };
 
-/// Throws unless a file has all these fields at its cells, each with one method.
+/// Requires a file that has all these fields at its cells, each with one method.
 /// \throws Error invalid_argument, naming the field.
 void require_fields(const MeshFile& file, const FieldMethods& methods);
 
-/// What a file holds after refine() or coarsen(). Cells whose corners did not change keep them, and
-/// their order: those of a boundary. New cells have the circumcentres of their triangles. Cells
-/// that stayed keep the values of all fields at cells, and of the density. At new ones, methods say
-/// what the values are; outside the triangles of an open mesh those that would be linear are those
-/// of the nearest old cell. The density at new cells is the old one there, made denser as the
-/// widths are finer. Masks of a limited area at edges and vertices follow when an MPAS file is
-/// written. The field mapNewToBase is added: the number of each cell in the old file, from 1 on,
-/// and 0 for new cells. \param old the file, as read_mesh_file() returns it; that of a plane whose
-/// rings clip the cells with them, see filled_surface(). \param changed of its mesh. \throws Error
-/// invalid_argument for a file without a mesh, for polygons that are not those of its
+/// The contents of a file after refine() or coarsen(). Cells whose corners did not change keep
+/// them, and their order; so do cells at a boundary. New cells have the circumcentres of their
+/// triangles. Cells that stayed keep the values of all fields at cells, and of the density. At new
+/// ones, methods say what the values are; outside the triangles of an open mesh those that would be
+/// linear are those of the nearest old cell. The density at new cells is the old one there, made
+/// denser as the widths are finer. Masks of a limited area at edges and vertices follow when an
+/// MPAS file is written. The field mapNewToBase is added: the number of each cell in the old file,
+/// from 1 on, and 0 for new cells. \param old the file, as read_mesh_file() returns it; that of a
+/// plane whose rings clip the cells with them, see filled_surface(). \param changed of its mesh.
+/// \throws Error invalid_argument for a file without a mesh, for polygons that are not those of its
 ///         sites; for conservative fields of an open mesh without cells; as require_fields().
 ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,
                          const FieldMethods& methods = {});
 
-/// What became of a file's fields.
+/// The treatment of a file's fields by write().
 struct WrittenFields {
   std::vector<std::string> dropped; ///< names of those that the format cannot hold
-  /// Those whose names NetCDF refuses, such as "sea level" and "a/b", with their names in the file.
+  /// The fields whose names NetCDF refuses, such as "sea level" and "a/b", with their names in the
+  /// file.
   std::vector<std::array<std::string, 2>> renamed;
 };
 
-/// Writes what a file holds to another format. The cells keep their shapes: polygons go to formats
-/// of cells, and to those of triangles that can hold other faces (vtp, vtu, off, ply) where there
-/// is no mesh. Fields that the format cannot hold are left out. MPAS needs Voronoi
-/// cells: the polygons of an open mesh are written if each corner of three cells is the
-/// circumcentre of their centres, within a millionth of a cell's width. Density and fields at cells
-/// go along.
+/// Writes the contents of a file to another format. The cells keep their shapes: polygons go to
+/// formats of cells, and to those of triangles that can hold other faces (vtp, vtu, off, ply) where
+/// there is no mesh. Fields that the format cannot hold are left out. MPAS needs Voronoi cells: the
+/// polygons of an open mesh are written if each corner of three cells is the circumcentre of their
+/// centres, within a millionth of a cell's width. Density and fields at cells go along.
 /// \param options its density, if not uniform, replaces the file's.
 /// \throws Error as write(); invalid_argument if the format cannot hold the mesh, with the reason.
 WrittenFields write(const std::string& path, const MeshFile& file,
@@ -303,9 +305,10 @@ struct Deviation {
   std::string text; ///< one line: the variable, the rule, the index, and both values
 };
 
-/// Compares the variables of a NetCDF mesh file with what follows from its mesh, and with the rules
-/// of its format (MPAS, UGRID, SCRIP, ESMF). Absent variables are not checked. The file's numbering
-/// of edges and vertices, the first entry of a cyclic list, and the first cell of an edge are free.
+/// Compares the variables of a NetCDF mesh file with values derived from its mesh, and with the
+/// rules of its format (MPAS, UGRID, SCRIP, ESMF). Absent variables are not checked. The file's
+/// numbering of edges and vertices, the first entry of a cyclic list, and the first cell of an edge
+/// are free.
 ///
 /// The mesh is that of the cells and of cellsOnVertex (MPAS), or of the polygons. All else follows
 /// from it, so that a wrong position of a cell makes many variables deviate.
@@ -333,7 +336,8 @@ struct Deviation {
 /// \throws Error file, parse, as read_mesh_file().
 std::vector<Deviation> check_file(const std::string& path, const MeshFile& file);
 
-/// The same, with less memory for MPAS: `file` is freed on the way, and unspecified afterwards.
+/// The same with less memory for MPAS: parts of `file` are freed during the call, and it is
+/// unspecified afterwards.
 std::vector<Deviation> check_file(const std::string& path, MeshFile&& file);
 
 } // namespace calotte

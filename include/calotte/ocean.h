@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-/// The cells of an ocean grid: what land covers of each, and which are sea.
+/// The cells of an ocean grid: the fraction of land of each, and the cells of the sea.
 CALOTTE_API_BEGIN
 namespace calotte {
 
@@ -23,8 +23,8 @@ struct Coast {
   double area = 0; ///< of the land, steradians
 };
 
-/// The arcs of a coast, each a line of two points. Those that occur in both directions, as where
-/// polygons are cut, are no shore.
+/// The arcs of a coast, each a line of two points, without those that occur in both directions, as
+/// where polygons are cut.
 std::vector<Points3> shores(const Coast& coast);
 
 /// The land around a point, such as an island with its lakes: the smallest left side of a ring that
@@ -61,7 +61,7 @@ DoubleVector land_fractions(const Voronoi& cells, const Raster& land);
 /// point.
 std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines);
 
-/// What makes sea of cells that are no land.
+/// The rules by which cells without land are sea.
 struct SeaOptions {
   std::vector<std::int32_t> opened = {}; ///< cells that are sea, even on land. Default: none.
   std::vector<std::int32_t> closed = {}; ///< cells that are land, unless opened. Default: none.
@@ -70,7 +70,7 @@ struct SeaOptions {
   std::vector<std::int32_t> seeds = {};
 };
 
-/// What sea_cells() decided.
+/// The decisions of sea_cells().
 struct SeaReport {
   std::int64_t opened = 0;  ///< cells of land that became sea
   std::int64_t closed = 0;  ///< cells of the sea that became land
@@ -85,9 +85,9 @@ struct SeaCells {
   SeaReport report; ///< counts
 };
 
-/// The cells of a connected sea: first closed and opened cells, then filled ones, then the parts
-/// without a seed, are decided. A cell that is filled lies on no way between two others, so that an
-/// opened passage stays open.
+/// The cells of a connected sea. Closed and opened cells are decided first, then filled cells, then
+/// the parts without a seed. A filled cell is on no path between two others, so that an opened
+/// passage stays open.
 /// \param cells_on_cell the n cells' 0-based neighbours; -1 for a missing one, which counts as
 ///        land.
 /// \param land n flags: 1 for land.

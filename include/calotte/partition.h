@@ -26,7 +26,7 @@ struct PartitionOptions {
 
 /// The parts of n cells. No part is empty.
 struct CellParts {
-  Ids part;                  ///< n: of each cell, 0 to parts - 1
+  Ids part;                  ///< n: the part of each cell, 0 to parts - 1
   std::int64_t parts = 1;    ///< their number
   std::int64_t edge_cut = 0; ///< pairs of neighbours in different parts
   double imbalance = 0;      ///< weight of the heaviest part over the mean weight, less 1
@@ -37,13 +37,13 @@ struct CellParts {
 
 /// Partitions cells by METIS (Karypis and Kumar, SIAM J. Sci. Comput. 20, 1998), multilevel k-way
 /// for a small edge cut, as gpmetis does, such that each part is connected. METIS aims at an
-/// imbalance of at most 0.03, and of less than 50 cells a part at up to one cell more. For parts
-/// that are not balanced, such as of cells of very different weights, METIS is asked up to
-/// three times more.
+/// imbalance of at most 0.03; with fewer than 50 cells a part, of up to one cell more. If the parts
+/// are not balanced, as with cells of very different weights, METIS is called up to three more
+/// times.
 ///
 /// Cells that are not all connected, such as those of an ocean with separate basins, are joined for
 /// METIS by one edge for each further component, to the cell of the next lower id. A part may then
-/// hold cells of several components; within each of these its cells are connected through the cells
+/// have cells of several components; within each of these its cells are connected through the cells
 /// of the part, or through such an edge.
 ///
 /// METIS uses rand() and handlers of SIGABRT and SIGTERM, of which a process has one each. It
@@ -62,7 +62,7 @@ struct CellParts {
 CellParts partition(const IdLists& neighbours, std::int64_t parts,
                     const PartitionOptions& options = {});
 
-/// The same for several numbers of parts, in parallel but for METIS.
+/// The same for several numbers of parts, in parallel except for METIS.
 /// \param visit called for each number in `counts` once, from several threads at once, in any
 ///        order. An exception that it throws ends the call.
 void partition(const IdLists& neighbours, std::span<const std::int64_t> counts,

@@ -11,7 +11,7 @@ namespace calotte {
 
 struct CvtProgress;
 
-/// How far a call has come.
+/// The progress of a call.
 struct Progress {
   /// The current stage, one word: "sites", "regions", "triangulate" or "unite" of a triangulation,
   /// "descend" of make_grid(), "number" or "write" of write(), "check" of check().
@@ -22,7 +22,7 @@ struct Progress {
   const CvtProgress* run = nullptr; ///< of make_grid(): the run so far; null for other functions
 };
 
-/// What a call does after its callback.
+/// The action of a call after its callback.
 enum class ProgressReply {
   proceed, ///< goes on
   stop,    ///< make_grid() ends with the grid as it is, marked not converged; others as `cancel`

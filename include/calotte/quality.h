@@ -22,8 +22,8 @@ struct ValueRange {
   double max = 0;  ///< the greatest value
 };
 
-/// Extremes of a quantity, and the values that 1, 5, 50, 95 and 99 percent of all are not above
-/// (the least such value that occurs); all 0 if there is nothing to measure.
+/// Extremes and percentiles of a quantity: the least value that occurs such that 1, 5, 50, 95 and
+/// 99 percent of all values are not above it. All 0 if there is nothing to measure.
 struct Percentiles {
   double min = 0; ///< the least value
   double p1 = 0;  ///< 1 percent
@@ -47,8 +47,8 @@ inline constexpr double longest_dc_over_h = 1.4;   ///< dc/h of the longest
 struct Quality {
   std::int64_t cells = 0;     ///< their number
   std::int64_t triangles = 0; ///< their number
-  /// Triangles along an open boundary that are flatter than rounding, such as those between sites
-  /// on one meridian, which lie on one great circle but for their last digits. They do not count.
+  /// Triangles along an open boundary that are flat up to rounding, such as those between sites on
+  /// one meridian, which lie on one great circle except for their last digits. They do not count.
   std::int64_t flat = 0;
   std::vector<std::int64_t> degrees; ///< degrees[d]: number of cells with d neighbours
 
@@ -141,10 +141,10 @@ Quality triangle_quality(const Mesh& mesh);
 /// \throws Error invalid_argument, for a mesh that fails check_surface().
 Quality open_quality(const Mesh& mesh);
 
-/// The measures of Quality cell by cell and triangle by triangle, for maps and lists. Lengths are
-/// arcs on the unit sphere in radians and areas steradians, or in the unit of a plane and its
-/// square. NaN where a cell has no such measure: at sites that triangles do not surround, and at
-/// all sites of a mesh that is not Delaunay, sigma, quality and area; degree as well at the former.
+/// The measures of Quality for each cell and triangle, for maps and lists. Lengths are arcs on the
+/// unit sphere in radians and areas steradians, or in the unit of a plane and its square. NaN where
+/// a cell has no such measure: sigma, quality and area at sites that triangles do not surround, and
+/// at all sites of a mesh that is not Delaunay; degree at the former sites, too.
 struct CellMeasures {
   DoubleVector spacing;       ///< n: mean length of the Delaunay edges at the site
   DoubleVector area;          ///< n
@@ -164,7 +164,7 @@ struct CellMeasures {
   DoubleVector triangle_quality; ///< m: as Quality::triangle_quality
 };
 
-/// Measures the cells and triangles of a mesh. One of the sphere may be open, and need not be
+/// Measures the cells and triangles of a mesh. A mesh of the sphere may be open, and need not be
 /// Delaunay. The rings of a part of the plane clip the cells: clipped ones have no degree, sigma
 /// and quality; triangles whose circumcentre lies outside have no values.
 /// \param mesh in the plane as in quality().
@@ -173,7 +173,7 @@ struct CellMeasures {
 ///         quality(); in the plane as quality() and voronoi().
 CellMeasures cell_measures(const Mesh& mesh, const Density& density = {});
 
-/// For each site whether the boundary of the mesh's surface clips its cell, or the site lies
+/// For each site, whether the boundary of the mesh's surface clips its cell or the site lies
 /// outside. quality() leaves these cells out of `degrees`. The whole sphere and a box clip no cell.
 /// \param mesh its points and its surface only.
 /// \throws Error invalid_argument for a region of the sphere, whose cells quality() does not clip,
@@ -201,8 +201,8 @@ struct OperatorErrorsByCell {
   DoubleVector kinetic_energy; ///< n
 };
 
-/// What a C-grid model sees of a mesh: errors of the operators of TRiSK (Ringler, Thuburn, Klemp
-/// and Skamarock, J. Comput. Phys. 229, 2010) for smooth fields, and their stability.
+/// The quality of a mesh for a C-grid model: errors of the operators of TRiSK (Ringler, Thuburn,
+/// Klemp and Skamarock, J. Comput. Phys. 229, 2010) for smooth fields, and their stability.
 ///
 /// The scalars s are harmonics of one norm: on the sphere the five real ones of degree 2, x y, y z,
 /// z x, (x^2 - y^2)/2 and (3 z^2 - 1)/(2 sqrt 3), so that a rotation of the mesh leaves the errors
@@ -232,8 +232,8 @@ struct OperatorErrors {
   /// percent, over the square of the unit of length. It bounds the time step of gravity waves and
   /// of the diffusion of divergence.
   double primal_eigenvalue = 0;
-  /// The same at vertices: curl of the rotated gradient. It bounds the time step of what diffuses
-  /// vorticity. Short Voronoi edges raise it; infinite where one has no length.
+  /// The same at vertices: curl of the rotated gradient. It bounds the time step of the diffusion
+  /// of vorticity. Short Voronoi edges raise it; infinite where one has no length.
   double dual_eigenvalue = 0;
 
   OperatorErrorsByCell by_cell; ///< the errors of each cell

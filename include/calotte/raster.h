@@ -13,14 +13,14 @@ namespace calotte {
 ///
 /// On the sphere it is periodic in longitude. Between the first or last latitude and the pole it is
 /// linear; the value at the pole is the mean of that row. The field is continuous on the whole
-/// sphere. In a plane it is outside the grid that of the nearest point of the grid.
+/// sphere. Outside the grid of a plane, it has the value of the nearest point of the grid.
 struct Raster {
   /// nx >= 2, ascending. Degrees east, apart by 1e-9 at least, the last below the first + 360; in a
   /// plane finite, in its unit.
   DoubleVector x = {};
   /// ny >= 2, ascending likewise. Degrees north within -90 to 90; in a plane finite, in its unit.
   DoubleVector y = {};
-  DoubleMatrix values = {}; ///< nx x ny; the function that takes a raster says of which unit
+  DoubleMatrix values = {}; ///< nx x ny; in the unit that the function with the raster states
   bool of_plane = false;    ///< whether the axes are those of a plane. Default: of the sphere.
 };
 

@@ -20,7 +20,7 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// What the columns of a text file of points hold.
+/// The contents of the columns of a text file of points.
 enum class Columns {
   xyz,    ///< x y z: a direction of any norm but 0; the default
   lonlat, ///< longitude (any) and latitude (-90 to 90), in degrees, become unit columns
@@ -45,7 +45,7 @@ Points3 read_points(std::istream& in, const std::string& name, Columns columns =
 /// The same from a file.
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz);
 
-/// Points of a text, and where they stand.
+/// Points of a text, and their lines.
 struct PointLines {
   Points3 points;                  ///< as of read_points()
   std::vector<std::int64_t> lines; ///< for each column its 1-based line
@@ -53,7 +53,7 @@ struct PointLines {
   bool further_columns = false;
 };
 
-/// As read_points(), with the lines, for messages about a point.
+/// Does what read_points() does, and returns the lines, for messages about a point.
 PointLines read_point_lines(std::istream& in, const std::string& name,
                             Columns columns = Columns::xyz);
 /// The same from a file.
@@ -104,21 +104,21 @@ Surface read_region(std::istream& in, const std::string& name);
 /// the triangles of three cells each, and the sites of cells that a boundary clips are
 /// triangulated; read_mesh_file() reads the cells, too. The name selects the format as in `write`.
 /// A file of suffix .nc, or a NetCDF file of unknown suffix, has the format of its content.
-/// Coordinates keep their bits if the format holds them. Formats without triangles of the sites
+/// Coordinates keep their bits if the format stores them. Formats without triangles of the sites
 /// (scrip, esmf, geojson, and cells of UGRID that others wrote) and files of points alone give the
 /// sites' Delaunay triangulation, in which equal directions are one site; so does SaveVertices
 /// without a SaveTriangles beside it that closes the sphere. The function checks that ids are in
 /// range; check() proves the geometry. Neighbours are rebuilt. An edge of three triangles, or of
 /// two that run through it in the same direction, stays open.
 ///
-/// Of NetCDF files that no program writes here, ICON's grids are read, cells with bounds as in the
-/// CF conventions (longitudes and latitudes with three corners or more for each cell), and the one
-/// grid of an OASIS file. Corners that are _FillValue or missing_value pad a cell. A .msh file is
-/// JIGSAW's, or the text of Gmsh's formats 2 and 4, whose triangles are read.
+/// Of NetCDF files that this library does not write, ICON's grids are read, cells with bounds as in
+/// the CF conventions (longitudes and latitudes with three corners or more for each cell), and the
+/// one grid of an OASIS file. Corners that are _FillValue or missing_value pad a cell. A .msh file
+/// is JIGSAW's, or the text of Gmsh's formats 2 and 4, whose triangles are read.
 ///
 /// VTK files are XML (.vtp, .vtu: PolyData or UnstructuredGrid; text, base64 or appended; also
 /// compressed by zlib) or legacy (.vtk: POLYDATA or UNSTRUCTURED_GRID, to version 5.1). PLY files
-/// are text or binary. Their triangles are those of the points; a file with other polygons holds
+/// are text or binary. Their triangles are those of the points; a file with other polygons contains
 /// cells, and the cell data `site` or `Center` are their centres. Triangle strips, other types of
 /// cells, several pieces and other compression are errors.
 /// \param points 3 x n, the points that the ids of a .txt or .tri file refer to; other formats
@@ -144,7 +144,7 @@ Points3 read_sites(const std::string& path);
 /// \throws Error parse, naming the feature or the variable; file.
 Coast read_coast(const std::string& path);
 
-/// What the values of a raster are.
+/// The quantity of a raster's values.
 enum class RasterQuantity {
   any,           ///< as the file has them
   cell_width,    ///< > 0, in km, in a plane in its unit
@@ -154,7 +154,7 @@ enum class RasterQuantity {
   sea_fraction   ///< 0 to 1
 };
 
-/// Which raster of a file is read.
+/// The choice of a raster in a file.
 struct RasterChoice {
   /// The variable. Default: cellWidth for widths, density for densities, else the file's only
   /// raster.
@@ -175,14 +175,14 @@ struct RasterChoice {
 ///
 /// Values are brought to the unit of their quantity by the attribute units, see kilometres_in():
 /// widths to km, in a plane to the unit of x where both have units; heights to m; fractions may be
-/// in %. Depths, which the attribute positive "down" or a standard_name tells, become heights. A
-/// missing value is an error, but for any quantity, and for land among depths, which ocean models
+/// in %. Depths, by the attribute positive "down" or a standard_name, become heights. A missing
+/// value is an error, except for RasterQuantity::any and for land among depths, which ocean models
 /// leave out.
 /// \throws Error parse, naming the variable and its index, and for a file with several rasters;
 /// file.
 Raster read_raster(const std::string& path, const RasterChoice& choice = {});
 
-/// Reads fractions of land: those of a file, 1 less those of the sea, or 1 where a height is not
+/// Reads fractions of land: those of a file, 1 minus those of the sea, or 1 where a height is not
 /// below 0.
 /// \param quantity height, land_fraction or sea_fraction.
 /// \throws Error as read_raster().
@@ -196,10 +196,10 @@ Raster read_land(const std::string& path, const std::string& variable = {},
 /// \throws Error parse, naming the feature; file.
 std::vector<Points3> read_lines(const std::string& path, const Surface& surface = {});
 
-/// Reads what widths may depend on the distance from: of GeoJSON lines as read_lines() and the
-/// shores of polygons as read_coast(), which may stand in one file; the shores of a coast of GSHHG;
-/// or, from a .txt, points of longitude and latitude, each a line of its own. In a plane positions
-/// are x and y, lines have z = 0, and polygons give their rings.
+/// Reads lines for widths by the distance from them. GeoJSON gives lines, see read_lines(), and the
+/// coasts of polygons, see read_coast(), which may be in one file; GSHHG gives its coasts; a .txt
+/// gives points of longitude and latitude, each a line of its own. In a plane positions are x and
+/// y, lines have z = 0, and polygons give their rings.
 /// \param surface the sphere or a plane. Default: the sphere.
 /// \throws Error as these functions.
 std::vector<Points3> read_shapes(const std::string& path, const Surface& surface = {});
@@ -259,10 +259,10 @@ double kilometres_in(const std::string& unit);
 Raster read_cell_width(const std::string& path, const PolygonWidths& polygons = {},
                        const Surface& surface = {});
 
-/// Rules for widths, of a file.
+/// The rules for widths of a file.
 struct WidthRules {
-  Widths widths = Widths::no_demand;   ///< of all of it, with the file's step
-  std::optional<double> gradient = {}; ///< that all of it is limited to
+  Widths widths = Widths::no_demand;   ///< of the whole file, with its step
+  std::optional<double> gradient = {}; ///< limit of the whole file
   std::vector<std::string> names = {}; ///< of the rules that active_rules() numbers
 };
 

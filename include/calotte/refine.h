@@ -13,14 +13,14 @@
 #include <optional>
 #include <vector>
 
-/// Finer or coarser cells in a part of a mesh, beside which it stays as it is.
+/// Finer or coarser cells in a part of a mesh. The other parts stay unchanged.
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// The widths that cells are to have. Elsewhere they keep their own.
+/// The demanded widths of cells. Elsewhere cells keep their widths.
 struct WidthDemand {
   /// Widths in km, in a plane in its unit: refine() makes wider cells finer, and coarsen() makes
-  /// narrower ones coarser. Where rules say nothing, cells stay.
+  /// narrower ones coarser. Where no rule gives a width, cells stay.
   std::optional<Widths> widths = {};
   /// Instead of widths: the part of the surface where cells become `factor` times as narrow or as
   /// wide as they are.
@@ -46,20 +46,20 @@ struct RefineOptions {
 struct ChangedPatch {
   std::int64_t removed = 0; ///< sites of the old mesh
   std::int64_t added = 0;   ///< sites of the new mesh that replace them
-  CvtReport report;         ///< how their run went, with those around them that stayed
+  CvtReport report;         ///< of the patch's run, which includes the sites around it that stayed
 };
 
-/// A mesh of which a part changed.
+/// A mesh after a change of a part of it.
 struct ChangedMesh {
   /// The sites that stayed, in their order and with their bits, then the new ones along the
   /// space-filling curve.
   Mesh mesh = {};
   Ids new_of_old = {}; ///< by site of the old mesh; -1 for none
   Ids old_of_new = {}; ///< by site of the new mesh; -1 for none
-  /// By site of the new mesh: the width that its cell is to have over that of the old mesh there; 1
-  /// for those that stayed.
+  /// By site of the new mesh, the demanded width of its cell over the width of the old mesh there;
+  /// 1 for sites that stayed.
   DoubleVector width_ratio = {};
-  /// By step; those of a step do not touch. None if the demand is met.
+  /// The patches, step by step; patches of one step do not touch. None if the demand is met.
   std::vector<ChangedPatch> patches = {};
   /// Sites of the old mesh where the demand is not met because sites at the mesh's boundary, and
   /// those next to them, stay: these, and finer ones beside them, whose widths change at the
@@ -72,14 +72,14 @@ struct ChangedMesh {
 };
 
 /// Makes cells finer where they are wider than demanded. A demand counts anywhere in a cell, not at
-/// its site alone: it is looked for at points as dense as its least width, up to sixteen times as
+/// its site alone: it is sampled at points as dense as its least width, up to sixteen times as
 /// dense as the sites, and along a region's boundary. Where it lies between the sites there are up
-/// to four steps, each with patches of its own. The cells around grow from there at the
-/// gradient up to their own widths; with three rows of cells more, up to seven where shapes need
-/// them, these form the patches that change. Each patch is a centroidal Voronoi tessellation of its
-/// own, by the rules of make_grid() for fixed generators, in which two rows of sites around it
-/// stay. All other sites keep their bits. The time beyond a few passes over the mesh, and voronoi()
-/// of a plane with rings, is that of the patches.
+/// to four steps, each with patches of its own. The cells around grow from there at the gradient up
+/// to their own widths; with three rows of cells more, up to seven where shapes need them, these
+/// form the patches that change. Each patch is a centroidal Voronoi tessellation of its own, by the
+/// rules of make_grid() for fixed generators, in which two rows of sites around it stay. All other
+/// sites keep their bits. The time beyond a few passes over the mesh, and voronoi() of a plane with
+/// rings, is that of the patches.
 ///
 /// The result is the Delaunay triangulation of its sites, and has the same bits for any number of
 /// threads. Patches do not depend on each other: two demands whose patches do not touch, one after
@@ -93,9 +93,9 @@ struct ChangedMesh {
 ///         as make_grid(), and in a plane with rings as voronoi().
 ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
 
-/// The same for cells that are narrower than demanded, which become wider. They begin at those that
-/// stay around them, and grow from there at the gradient.
-/// \throws Error as refine(); invalid_argument for a region that holds no site.
+/// The same for cells that are narrower than demanded, which become wider. Their widths grow at the
+/// gradient from those of the cells around them that stay.
+/// \throws Error as refine(); invalid_argument for a region that contains no site.
 ChangedMesh coarsen(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
 
 } // namespace calotte

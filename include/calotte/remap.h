@@ -15,8 +15,8 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// How values at sites or of cells become values elsewhere. All but `conservative` are exact at the
-/// sites.
+/// The method by which values at sites or of cells give values elsewhere. All but `conservative`
+/// are exact at the sites.
 enum class Interpolation {
   linear, ///< on each triangle, by the weights of locate()
   /// By the areas that a cell of the position would take from the cells of the sites around it
@@ -70,11 +70,11 @@ LonLatBoxes lon_lat_boxes(std::int64_t columns, std::int64_t rows);
 ///         a step of 180 degrees or more.
 LonLatBoxes lon_lat_boxes(const DoubleVector& longitudes, const DoubleVector& latitudes);
 
-/// Those of a raster of the sphere, all of which they cover: half way between nodes, round the
-/// sphere and up to the poles. \throws Error as above.
+/// The boxes of a raster, which cover the whole sphere: their sides are half way between nodes,
+/// round the sphere and up to the poles. \throws Error as above.
 LonLatBoxes lon_lat_boxes(const Raster& raster);
 
-/// Throws unless the boxes satisfy the conditions above, each narrower than 180 degrees.
+/// Requires boxes that satisfy the conditions above, each narrower than 180 degrees.
 /// \throws Error invalid_argument, naming the value.
 void require_boxes(const LonLatBoxes& boxes);
 
@@ -84,8 +84,8 @@ DoubleVector areas(const LonLatBoxes& boxes);
 /// 3 x n unit columns, the nodes.
 Points3 nodes(const LonLatBoxes& boxes);
 
-/// Weights from the cells of a source to those of a target, and what a file of weights says beside
-/// them.
+/// Weights from the cells of a source to those of a target, with the other data of a file of
+/// weights.
 struct GridWeights {
   /// A row for each cell of the target. Conservative: the areas that it shares with cells of the
   /// source, divided by their sum. A row outside of the source has none.
@@ -100,8 +100,8 @@ struct GridWeights {
 /// divided by the part of the row's weights that they have. The result is NaN where there is none
 /// of them, or where they cover less than a fraction of the cell.
 ///
-/// A field of integers holds categories: each cell has the one of the greatest weight, of equal
-/// ones the lowest.
+/// A field of integers has categories: each cell gets the category of the greatest weight, the
+/// lowest of equal ones.
 /// \param min_cover the fraction of a cell's area, 0 to 1: that of the weights that count times
 ///        target_fraction.
 /// \throws Error invalid_argument: for a field that has no value for each cell of the source, or is
@@ -126,13 +126,13 @@ GridWeights conservative_weights(const LonLatBoxes& source,
 /// The same; exact, as products of lengths along longitude and sine of latitude.
 GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target);
 
-/// The polygon that holds each position, the lowest of several; -1 where there is none. Sides
+/// The polygon that contains each position, the lowest of several; -1 where there is none. Sides
 /// belong to both polygons beside them, up to rounding. \param positions directions, or points of
 /// the plane; as locate() takes them. \throws Error as locate() for positions; as
 /// conservative_weights() for polygons.
 Ids cells_at(const Polygons& polygons, const PointsRef& positions);
 
-/// Weights of a raster's nodes at positions on the sphere: `nearest`, the box that holds the
+/// Weights of a raster's nodes at positions on the sphere: `nearest`, the box that contains the
 /// position; or `linear`, bilinear in longitude and latitude between nodes, round the sphere where
 /// the boxes close it. Between the last latitude and a pole that its boxes reach it is linear in
 /// latitude; the value at the pole is the mean of the row. In the outer half of boxes at another

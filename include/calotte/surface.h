@@ -26,8 +26,7 @@ struct UncheckedSurface;
 ///     Surface::periodic({lx, ly})                // the box [0, lx) x [0, ly)
 ///     Surface::periodic({lx, 0})                 // a channel along x
 ///
-/// A value that is cheap to copy. Copies share what is prepared for queries; any number of threads
-/// may call them.
+/// A value that is cheap to copy. Copies share the data that are prepared for queries. Thread-safe.
 class Surface {
 public:
   /// Closed rings of corners, one a column: 3 rows on the sphere, 2 in the plane.
@@ -37,7 +36,7 @@ public:
 
   /// The unit sphere.
   static Surface sphere() { return {}; }
-  /// The plane without an end.
+  /// The whole plane.
   static Surface plane();
   /// The plane that repeats in x, in y, or in both.
   /// \param period lengths from 1e-30 to 1e30; 0 in a direction without one; not both 0.
@@ -60,17 +59,17 @@ public:
   bool is_whole_sphere() const { return sphere_ && !bounds_; } ///< without a boundary
   /// True for the doubly periodic box.
   bool is_box() const { return period_.minCoeff() > 0; }
-  /// Of the plane in x and y; 0 in a direction without one.
+  /// The periods of the plane in x and y; 0 in a direction without a period.
   const Eigen::Vector2d& period() const { return period_; }
   const Rings& rings() const; ///< none if it is not bounded
-  /// Steradians, or the square of the plane's unit; infinite for a plane that has no end.
+  /// The area: steradians, or the square of the plane's unit; infinite for the whole plane.
   double area() const;
   /// True if a point lies inside or on the boundary; in a periodic direction, if it lies in the
   /// half-open period. Exact. False for points that are not finite, and for the vector 0 on the
   /// sphere.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// True for the same kind, period and rings.
+  /// True if both have the same kind, period and rings.
   friend bool operator==(const Surface& a, const Surface& b) { return a.equals(b); }
 
 private:
@@ -121,7 +120,7 @@ Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_mi
 /// \throws Error invalid_argument for a value out of range, and for the whole sphere.
 Surface channel(double lower, double upper, int corners = 360);
 
-/// The region that rings enclose. One rule holds for all rings that users or files write, in either
+/// The region that rings enclose. One rule applies to all rings of users and files, in either
 /// direction: they enclose the side without poles, as on a map of longitudes and latitudes; if both
 /// sides have a pole, or the rings pass through one, they enclose the smaller side, and of two
 /// equal ones that to the left of the first ring. So a ring of one continent or ocean encloses it,
@@ -142,9 +141,9 @@ Surface enclosed_region(const std::vector<Points3>& rings);
 /// \throws Error as above; invalid_argument for a point on the boundary.
 Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& point);
 
-/// A region that holds all points within a distance of another one, and few more: the boundary
-/// moves outwards in a stereographic projection about the middle of the region. The whole sphere if
-/// the result would reach farther than 2 radians from there.
+/// A region that contains all points within a distance of another region, and few more: the
+/// boundary moves outwards in a stereographic projection about the middle of the region. The whole
+/// sphere if the result would reach farther than 2 radians from there.
 /// \param region the sphere or a part of it.
 /// \param distance angle in radians, > 0 and finite.
 /// \throws Error invalid_argument for a plane, and for a distance out of range.

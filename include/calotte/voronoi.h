@@ -11,7 +11,7 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// The Voronoi tessellation dual to a Delaunay triangulation, as a C-grid model staggers it
+/// The Voronoi tessellation dual to a Delaunay triangulation, with the staggering of a C-grid model
 /// (Ringler, Thuburn, Klemp and Skamarock, J. Comput. Phys. 229, 2010): cell i belongs to site i,
 /// vertex t is the circumcentre of triangle t, and an edge is the pair of a Delaunay edge, which
 /// joins two sites, and the dual Voronoi edge, which joins two vertices. Edges are sorted by their
@@ -27,8 +27,8 @@ namespace calotte {
 /// domain to the left. Edges along the boundary have one cell; they follow the edges between two
 /// cells, of which a pair may have several. A missing cell or edge has the id -1.
 struct Voronoi {
-  /// What the cells cover: the surface of the mesh, but on the sphere without its rings. In a plane
-  /// they clip the cells.
+  /// The surface that the cells cover: that of the mesh, on the sphere without its rings. In a
+  /// plane the rings clip the cells.
   Surface surface = {};
 
   Points3 cells; ///< 3 x n: the sites; unit columns on the sphere
@@ -58,7 +58,7 @@ struct Voronoi {
       angle; ///< e: angle of the normal from east, -pi to pi; in the plane from x, [0, 2 pi)
 
   DoubleVector cell_area; ///< n
-  /// m: area of the triangle, the sum of its kites; on the boundary of the part that is inside.
+  /// m: area of the triangle, the sum of its kites; on the boundary, of the part inside the domain.
   DoubleVector vertex_area;
   /// 3 x m areas: kite j is the part of the triangle that is closest to its cell j, with the
   /// corners vertex, edge j, cell j, edge j + 1. Areas are signed: a part is negative if the
@@ -90,10 +90,10 @@ struct Voronoi {
 ///         the boundary cuts it into several parts or encloses an island in it.
 Voronoi voronoi(const Mesh& mesh);
 
-/// A part of the tessellation: the cells of some sites, with the edges and vertices at these. A
-/// cell that is left out is missing, -1, from the lists of its neighbours. Edges with one cell
-/// follow the others; they keep their positions, and dc is the distance to the missing cell. Kites
-/// are those of the cells that are there.
+/// A part of the tessellation: the cells of some sites, with their edges and vertices. A cell that
+/// is not kept is missing, -1, in the lists of its neighbours. Edges with one cell follow the
+/// others; they keep their positions, and dc is the distance to the missing cell. Kites are those
+/// of the kept cells.
 ///
 ///     write("area.nc", {.polygons = polygons_of(voronoi(mesh, mask))});
 ///
@@ -113,8 +113,8 @@ Polygons polygons_of(Voronoi voronoi);
 /// cells_on_edge(0, e) counter-clockwise from e, then those of cells_on_edge(1, e). (Thuburn,
 /// Ringler, Skamarock and Klemp, J. Comput. Phys. 228, 2009, Eq. 33.) The reconstruction conserves
 /// energy, because weight dc_e / dv_e' is antisymmetric. The weights are 0 for a cell without area,
-/// and for an edge between cells that coincide up to rounding. An edge on the boundary has those of
-/// its one cell.
+/// and for an edge between cells that coincide up to rounding. An edge on the boundary has the
+/// weights of its one cell.
 struct TangentialWeights {
   IdLists edges;        ///< of the k-th edge: the other edges e'
   DoubleVector weights; ///< one for each item of `edges`, without unit
@@ -144,9 +144,9 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density = {});
 /// in a plane the unit of the points.
 double nominal_spacing(const CellFields& fields);
 
-/// A density that follows from the cells, for a mesh of unknown density: (h_min/h)^4, h the spacing
-/// of hexagons of a cell's area, smoothed over some two cells, so that it is a law of the grid and
-/// not the scatter of its cells. Cells that lack a neighbour have the mean of those next to them.
+/// An estimate of the density from the cells, for a mesh of unknown density: (h_min/h)^4, with h
+/// the spacing of hexagons of a cell's area, smoothed over some two cells to remove the scatter of
+/// single cells. Cells that lack a neighbour have the mean of their neighbours.
 /// \returns n values, the maximum 1; none if the mesh is uniform: 90% of the smoothed spacings lie
 ///          within 10%, or most of the variation is scatter, as that of random sites.
 DoubleVector spacing_density(const Voronoi& voronoi);

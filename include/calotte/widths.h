@@ -19,26 +19,26 @@ namespace calotte {
 /// The radius of the Earth in km, the default of the functions below.
 inline constexpr double earth_radius_km = 6371;
 
-/// Cell widths h at nodes that are prepared to be asked for at any point: those of a raster, or of
-/// rules, see width_field(). They are distances between the centres of neighbouring cells, here and
-/// below in km, in a plane in its unit. A value that is cheap to copy.
+/// Cell widths h at nodes, prepared for evaluation at any point: those of a raster, or of rules,
+/// see width_field(). They are distances between the centres of neighbouring cells, here and below
+/// in km, in a plane in its unit. A value that is cheap to copy.
 class WidthField {
 public:
   /// \param widths > 0 and finite, max / min at most 1e30.
   /// \throws Error invalid_argument if they violate these conditions or those of Raster.
   WidthField(const Raster& widths); // NOLINT(google-explicit-constructor): a raster is a field
-  /// Of a field of the library itself.
+  /// A field made by the library.
   explicit WidthField(std::shared_ptr<const density_detail::SampledWidths> widths);
 
   double least() const;       ///< of the nodes
   double greatest() const;    ///< of the nodes
   std::int64_t nodes() const; ///< their number
-  /// Of rules: the largest distance of nodes, in widths there. 1, or more where there would be too
-  /// many of them.
+  /// For rules, the largest distance of neighbouring nodes, in local widths: 1, or more where that
+  /// would require too many nodes.
   double apart() const;
   bool of_plane() const; ///< whether lengths are those of a plane
 
-  /// What copies share.
+  /// The data that copies share.
   const std::shared_ptr<const density_detail::SampledWidths>& sampled() const { return sampled_; }
 
 private:
@@ -69,8 +69,8 @@ Raster widths_of_density(const Raster& density);
 double implied_cells(const WidthField& widths, const Surface& surface = {},
                      double radius_km = earth_radius_km);
 
-/// Throws unless the nodes cover the sphere, or a part of it or of the plane. At the boundary of a
-/// part the nearest nodes are at most half of the widest step away. On the sphere, between the last
+/// Requires nodes that cover the sphere, or a part of it or of the plane. At the boundary of a part
+/// the nearest nodes are at most half of the widest step away. On the sphere, between the last
 /// longitude and the first one and beyond the outer latitudes at most 1.5 of it.
 /// \throws Error invalid_argument, naming the extent of the nodes and what they leave out; for
 ///         another surface, as for implied_cells().
@@ -85,12 +85,13 @@ struct WidthGradient {
 
 /// The largest gradient of cell widths that most models accept, km per km.
 inline constexpr double steepest_width = 0.03;
-/// Whether one is larger by more than what the scale of a run's number of cells rounds.
+/// Whether a slope exceeds steepest_width by more than the rounding of a run's number of cells
+/// explains.
 inline bool is_too_steep(double slope) { return slope > 1.005 * steepest_width; }
 
-/// The largest |grad h| that cells see: the largest mean of the gradient over a square of the width
-/// h in the corner of a box between nodes, or over the box if that is smaller. (At a node the
-/// gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
+/// The largest |grad h| at the scale of cells: the largest mean of the gradient over a square of
+/// the width h in the corner of a box between nodes, or over the box if that is smaller. (At a node
+/// the gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
 /// sampled.) Most models need a value below steepest_width. Tiles that lie outside the surface that
 /// widths are for do not count.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
@@ -100,10 +101,10 @@ WidthGradient largest_gradient(const WidthField& widths, double radius_km = eart
 /// The largest widths that are nowhere above the given ones, and change by at most g km per km, in
 /// a plane by g per unit of length, between any two nodes: the least of h(y) + g d(x, y) over all
 /// nodes y. On the sphere d is the distance. In a plane it is the length of the shortest way in the
-/// domain, round its islands and across its periods, between nodes of the domain; a node outside
-/// has what the others allow it straight across. Where a node lowers none of its neighbours, but
-/// one beyond, the way from it may be longer by some hundredths of a step of the raster, and round
-/// islands by a third of one. The result has the same bits for any number of threads.
+/// domain, round its islands and across its periods, between nodes of the domain; a node outside is
+/// limited by the others along straight lines. Where a node lowers a node beyond its neighbours,
+/// but none of these, the computed path may be longer by some hundredths of a step of the raster,
+/// and round islands by a third of a step. The result has the same bits for any number of threads.
 ///
 /// \param gradient g, > 0 and finite.
 /// \param surface the sphere, whose boundary has no effect, or a plane.
@@ -137,7 +138,7 @@ class ShareRule;
 template <class Rule> class OfRadius;
 } // namespace density_detail
 
-/// How a width changes with a number, such as a distance or a latitude.
+/// A width as a function of a number, such as a distance or a latitude.
 struct WidthProfile {
   /// The number and the width in km, > 0; one node or more, the numbers ascending. Before the first
   /// and beyond the last the width stays.
@@ -145,7 +146,7 @@ struct WidthProfile {
   bool smooth = false; ///< between two nodes along a cubic that is level at both, not a line
 };
 
-/// How widths follow from the depth of the sea and its change. (Waves and slopes: Roberts, Pringle
+/// A rule for widths by the depth of the sea and its gradient. (Waves and slopes: Roberts, Pringle
 /// and Westerink, Geosci. Model Dev. 12, 2019. Rossby radii: Gill, Atmosphere-Ocean Dynamics,
 /// 1982.)
 struct DepthRule {
@@ -158,26 +159,25 @@ struct DepthRule {
   Kind kind = Kind::wavelength; ///< default: that of a wave
   double cells = 0;             ///< that share the length, > 0
   double period = 0;            ///< seconds, > 0, of a wave
-  double least = 0;             ///< km, > 0: where the sea is shallow, and at the shore
+  double least = 0;             ///< km, > 0: where the sea is shallow, and at the coast
 };
 
-/// Where a rule by the distance from a coast holds.
+/// The side on which a rule by the distance from a coast applies.
 enum class CoastSide { both, sea, land };
 
-/// How widths follow from the sea's channels and straits.
+/// A rule for widths in the sea's channels and straits.
 struct ChannelRule {
   double cells = 0;    ///< across a channel, > 0
   double least = 0;    ///< km, > 0: in channels that are narrower than so many such cells
   double widest = 500; ///< km, > 0, of the channels that count. Default 500.
 };
 
-/// How far one rule holds rather than another: a share from 0 to 1 for every point. A
-/// value that is cheap to copy.
+/// The share of one of two rules, from 0 to 1 for every point. A value that is cheap to copy.
 class WidthShare {
 public:
   /// 1 in a region and on its boundary, 0 outside.
   WidthShare(const Surface& region); // NOLINT(google-explicit-constructor): a region is a share
-  /// By the distance from the boundary of a region: > 0 outside, < 0 inside.
+  /// A share by the distance from the boundary of a region: > 0 outside, < 0 inside.
   /// \param profile shares of the distance, instead of widths.
   /// \throws Error invalid_argument for a surface without a boundary; naming the node, a profile
   ///         that is none, or a share that is not 0 to 1.
@@ -187,7 +187,7 @@ public:
   ///         node, for a value that is not 0 to 1.
   WidthShare(const Raster& raster); // NOLINT(google-explicit-constructor)
 
-  /// What copies share, for any sphere.
+  /// The data that copies share, for any sphere.
   const std::shared_ptr<const density_detail::OfRadius<density_detail::ShareRule>>&
   rule_of_radius() const {
     return rule_of_radius_;
@@ -197,12 +197,11 @@ private:
   std::shared_ptr<const density_detail::OfRadius<density_detail::ShareRule>> rule_of_radius_;
 };
 
-/// Cell widths as an expression: rules, each a width for every point, and what is made of them.
-/// Lengths are in km on a sphere of radius earth_radius_km, or of that of on_sphere(), in a plane
-/// in its unit, and widths are positive. Rules of the sphere and of a plane do not mix. Those of a
-/// plane are numbers, rasters, and by distance.
-/// A value that is cheap to copy; copies share what is prepared for queries, and any number of
-/// threads may ask them.
+/// Cell widths as an expression: rules, each with a width for every point, and combinations of
+/// rules. Widths are positive. Lengths are in km on a sphere of radius earth_radius_km, or of that
+/// of on_sphere(); in a plane in its unit. Rules of the sphere and of a plane cannot be combined.
+/// Rules of a plane are numbers, rasters, and those by distance. A value that is cheap to copy.
+/// Copies share the data that are prepared for queries. Thread-safe.
 ///
 ///     const Widths coast = Widths::by_distance(shapes, {{{0, 10}, {600, 60}}});
 ///     const Widths zones = Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 35}}});
@@ -212,9 +211,9 @@ public:
   /// One width everywhere, or no_demand.
   /// \throws Error invalid_argument unless it is > 0.
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
-  /// Those of a raster. \throws Error invalid_argument as WidthField.
+  /// The widths of a raster. \throws Error invalid_argument as WidthField.
   Widths(Raster raster); // NOLINT(google-explicit-constructor)
-  /// Of a rule of the library itself.
+  /// A rule made by the library.
   explicit Widths(std::shared_ptr<const density_detail::OfRadius<density_detail::WidthRule>> rule,
                   double radius_km = earth_radius_km);
 
@@ -222,8 +221,8 @@ public:
   /// \throws Error invalid_argument, naming the node, for a profile that is none.
   static Widths by_latitude(const WidthProfile& profile);
 
-  /// By the distance from the nearest of some lines, along great circles; in a plane straight, also
-  /// over land.
+  /// A width by the distance from the nearest of some lines, along great circles; in a plane along
+  /// straight lines, also over land.
   /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle, in a
   /// plane
   ///        x y 0; one point is a line, too. See read_shapes() and shores().
@@ -234,7 +233,7 @@ public:
   static Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile,
                             const Surface& surface = {});
 
-  /// One width up to a distance from the nearest of some lines; beyond it the rule says nothing.
+  /// One width up to a distance from the nearest of some lines; no_demand beyond it.
   ///
   /// \param lines as for by_distance().
   /// \param width > 0.
@@ -244,44 +243,44 @@ public:
   static Widths around(const std::vector<Points3>& lines, double width, double over,
                        const Surface& surface = {});
 
-  /// By the distance from the shores of a coast: > 0 in the sea, < 0 on land.
-  /// \param profile of the distance in km. With a single side, of the distance on it, from 0 on; on
-  ///        the other side the rule says nothing.
+  /// A width by the distance from a coast: > 0 in the sea, < 0 on land.
+  /// \param profile of the distance in km. With a single side, of the distance on that side, from 0
+  ///        on; no_demand on the other side.
   /// \throws Error invalid_argument, naming ring and corner: one that is no direction, or opposite
-  ///         to the one before; for a coast without shores; naming the node, a profile that is
-  ///         none.
+  ///         to the one before; for a coast without lines, see shores(); naming the node, a profile
+  ///         that is none.
   static Widths by_distance(const Coast& coast, const WidthProfile& profile,
                             CoastSide side = CoastSide::both);
 
-  /// By the depth at the nodes of a raster of the sphere, whose values are metres up; below 0 is
-  /// sea. Of land, but for nodes next to the sea, the rule says
-  /// nothing.
+  /// A width by the depth at the nodes of a raster of the sphere, whose values are metres up; below
+  /// 0 is sea. The result is no_demand on land, except at nodes next to the sea.
   /// \throws Error invalid_argument for a value of the rule out of range, or a raster that violates
   ///         the conditions of Raster, and naming the node, for a height that is not finite.
   static Widths by_depth(const Raster& heights, const DepthRule& rule);
 
-  /// By the width of channels and straits, max(least, width / cells); where there is none, nothing.
+  /// A width by that of channels and straits, max(least, width / cells); no_demand elsewhere.
   ///
-  /// The width at a point of the sea is twice the distance R from the shore. It counts if two of
-  /// the nearest points of the shore lie in directions more than 120 degrees apart, and at least 6
-  /// R from each other along the shore, or on different shores: in straits, also between islands,
-  /// and in inlets that are about as long as wide, but not in wider bays. The rule holds in the
-  /// circles of radius R about such points; limit_gradient() is exact. The points are the
-  /// circumcentres of Delaunay triangles of points along the shore (Dey and Zhao, Algorithmica 38,
+  /// The width at a point of the sea is twice the distance R from the coast. It counts if two of
+  /// the nearest points of the coast lie in directions more than 120 degrees apart, and at least 6
+  /// R from each other along the coast, or on different lines of it: in straits, also between
+  /// islands, and in inlets that are about as long as wide, but not in wider bays. The rule applies
+  /// in the circles of radius R about such points; limit_gradient() is exact. The points are the
+  /// circumcentres of Delaunay triangles of points along the coast (Dey and Zhao, Algorithmica 38,
   /// 2004), and R errs by less than 1/100.
   ///
   /// \throws Error invalid_argument for a value of the rule out of range; naming ring and corner of
   ///         the coast, one that is no direction or opposite to the one before. When it is first
   ///         evaluated, for a least width that cuts the coast into more than 20 million pieces on
-  ///         its sphere, and as delaunay() for a shore along one great circle.
+  ///         its sphere, and as delaunay() for a coast along one great circle.
   static Widths by_channel(const Coast& coast, const ChannelRule& rule);
 
-  /// What a rule says of points where it says nothing: infinity, so that others hold in a minimum.
+  /// The value of a rule where it gives no width: infinity, so that other rules decide in a
+  /// minimum.
   static constexpr double no_demand = std::numeric_limits<double>::infinity();
-  /// Whether a width is one that a rule gives, and not no_demand.
+  /// Whether a rule gives a width, that is not no_demand.
   static bool is_demand(double width) { return width < no_demand; }
 
-  /// The minimum of several at each point. Widths of the Earth go to the sphere of the others.
+  /// The minimum of several at each point. Widths of the Earth adopt the sphere of the others.
   /// \throws Error invalid_argument for an empty list, and for widths of a sphere and of a plane,
   /// or
   ///         of two other spheres, here and below.
@@ -293,7 +292,7 @@ public:
   /// (1 - t) a + t b with the share t.
   static Widths blend(const Widths& a, const Widths& b, const WidthShare& t);
 
-  /// These times a number.
+  /// These widths times a number.
   /// \param factor > 0 and finite.
   /// \throws Error invalid_argument for a factor out of range.
   Widths times(double factor) const;
@@ -301,21 +300,21 @@ public:
   /// The largest widths below these that change by at most g km per km, over the poles and the date
   /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly.
   /// Others are limited at the nodes of a raster whose step is their least width, from 0.05 to 1
-  /// degree, see limit_gradient(); the result is the lesser of that and these
-  /// widths. What lies between the nodes lowers them: each node of a rule's own raster, and for
-  /// other rules points up to four times as dense. A raster is limited at its own nodes. In a plane
+  /// degree, see limit_gradient(); the result is the lesser of that and these widths. Widths
+  /// between the nodes lower them, too: those at each node of a rule's own raster, and for other
+  /// rules at points up to four times as dense. A raster is limited at its own nodes. In a plane
   /// rules that are not limited exactly are refused: give their domain.
   /// \param gradient g, > 0 and finite.
   /// \throws Error invalid_argument for a gradient out of range.
   Widths limit_gradient(double gradient) const;
-  /// The same on the sphere. In a plane the raster of these widths with a limited gradient in its
+  /// The same on the sphere. In a plane, the raster of these widths with a limited gradient in the
   /// domain, see limit_gradient(const Raster&).
   /// \throws Error invalid_argument for a gradient out of range, and as sampled().
   Widths limit_gradient(double gradient, const Surface& surface) const;
 
-  /// The same with a step of the rasters that sampled() makes of them. Their limit_gradient() keeps
-  /// it, and what they are combined to has none. \throws Error invalid_argument unless it is > 0
-  /// and finite.
+  /// The same widths with a step for the rasters that sampled() makes of them. Their
+  /// limit_gradient() keeps the step; combinations of them have none. \throws Error
+  /// invalid_argument unless it is > 0 and finite.
   Widths with_step(double step) const;
   double step() const { return step_; } ///< 0: by their least width
 
@@ -326,9 +325,9 @@ public:
   Widths on_sphere(double radius_km) const;
   double radius_km() const { return radius_km_; } ///< of the sphere that lengths refer to
 
-  bool is_of_plane() const; ///< whether some of its rules are
+  bool is_of_plane() const; ///< whether some of its rules are rules of a plane
 
-  /// What copies share. It is prepared when it is first asked for.
+  /// The data that copies share. They are prepared at the first call.
   std::shared_ptr<const density_detail::WidthRule> rule() const;
   /// The same for any sphere.
   const std::shared_ptr<const density_detail::OfRadius<density_detail::WidthRule>>&
@@ -348,18 +347,18 @@ private:
 DoubleVector evaluate(const Widths& widths, const PointsRef& points);
 
 /// The rule of a minimum that gives the width at each of n points: its index in the list of
-/// Widths::minimum(), the first of equal ones. Also of a minimum whose gradient is limited: the
-/// rule from which the width grows. 0 for any other rule.
+/// Widths::minimum(), the first of equal ones. For a minimum with a limited gradient, the rule from
+/// which the width grows. 0 for any other rule.
 ///
 /// \param points as for evaluate().
 /// \throws Error as there.
 Ids active_rules(const Widths& minimum, const PointsRef& points);
 
-/// The widths as a run takes them: of rules at nodes that are at most the least width around them
-/// apart. They lie on tiles of one degree, in a plane on some four thousand. Each tile is divided
-/// by powers of two, up to 1024, and not at all where its widths differ by less than 1/1000.
-/// Between nodes widths are bilinear, and in the surface they are continuous. Where widths change
-/// by at most g km per km, they err by at most 1.3 g + 1/1000 times the width.
+/// The widths in the form that a run uses: rules at nodes whose distance is at most the least width
+/// around them. They lie on tiles of one degree, in a plane on some four thousand. Each tile is
+/// divided by powers of two, up to 1024, and not at all where its widths differ by less than
+/// 1/1000. Between nodes widths are bilinear, and in the surface they are continuous. Where widths
+/// change by at most g km per km, they err by at most 1.3 g + 1/1000 times the width.
 ///
 /// Where nodes would be more than forty million, or a tile have more than 1024 a side, they are
 /// farther apart, see WidthField::apart(), and the error grows as much. Tiles that lie outside a
@@ -372,8 +371,8 @@ WidthField width_field(const Widths& widths, const Surface& surface = {});
 
 /// The widths at the nodes of a regular raster: of the sphere, with nodes at the poles; of a plane,
 /// over the box around its boundary or over its periods. Nodes outside a bounded surface without a
-/// demand have the largest width of the others. Widths that are a raster have its nodes, without a
-/// step, and a number two nodes in each direction that cover any surface.
+/// demand have the largest width of the others. Without a step, widths that are a raster have its
+/// nodes, and a number has two nodes in each direction, which cover any surface.
 /// \param surface the sphere, a part of it, or a plane of finite area.
 /// \param step largest distance of rows and of columns: 0.01 to 10 degrees; in a plane > 0, for at
 ///        most 20 million nodes. Default 0: their own, see Widths::with_step(), or that of the

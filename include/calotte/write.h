@@ -66,25 +66,26 @@ enum class Format {
   cf,              ///< cells with bounds as in the CF conventions, or of OASIS, NetCDF, read only
 };
 
-/// How MPAS files pair the vertices around a cell, verticesOnCell, with its edges, edgesOnCell.
-/// Both lists run counter-clockwise. Models differ: see models().
+/// The order of the vertices around a cell, verticesOnCell, relative to its edges, edgesOnCell, in
+/// MPAS files. Both lists run counter-clockwise. Models differ: see models().
 enum class VertexOrder {
   after_edges,  ///< edge k lies between vertices k - 1 and k, as MPAS-Tools writes it
   before_edges, ///< edge k lies between vertices k and k + 1
 };
 
-/// What a format is.
+/// The properties of a format.
 struct FormatInfo {
   Format format = Format::by_name; ///< never by_name
-  /// Of the option --format, such as "ugrid-triangles"; empty where the format is read only.
+  /// The name in the option --format, such as "ugrid-triangles"; empty where the format is read
+  /// only.
   std::string word;
   /// Names that select it: suffixes such as ".exo", or whole names such as "nod2d.out".
   std::vector<std::string> names;
-  std::string title;   ///< such as "UGRID of triangles"
-  bool cells = false;  ///< it holds Voronoi cells, and needs a closed mesh or a domain of the plane
+  std::string title;  ///< such as "UGRID of triangles"
+  bool cells = false; ///< it stores Voronoi cells, and needs a closed mesh or a domain of the plane
   bool netcdf = false; ///< NetCDF, classic or HDF5
   bool read = true;    ///< read_mesh() reads it
-  bool points = true;  ///< it holds its points; else read_mesh() needs them
+  bool points = true;  ///< it stores the points; else read_mesh() needs them
 };
 
 /// Options of write(). No option changes the geometry of the mesh.
@@ -93,20 +94,21 @@ struct WriteOptions {
   Numbering numbering =
       Numbering::by_format; ///< of the cells; a plane supports by_format and input
   /// Radius of the sphere in NetCDF files, in the file's unit of length (MPAS: metres); > 0 and
-  /// finite; default 1. What a model expects find_model() tells. A plane and the other formats
-  /// store the points unchanged.
+  /// finite; default 1. find_model() gives the value that a model expects. A plane and the other
+  /// formats store the points unchanged.
   double sphere_radius = 1;
-  /// Of complete MPAS files. Default: none, after_edges, but before_edges for a limited area.
+  /// The order of verticesOnCell in complete MPAS files. Default: none, which means after_edges, or
+  /// before_edges for a limited area.
   std::optional<VertexOrder> vertex_order = {};
   /// Density of the mesh, for fields such as meshDensity and nominalMinDc; in a plane its values at
   /// the sites. Default: uniform.
   Density density = {};
   /// n values >= 0, one of them positive, by site; they replace `density`. Default: none.
   DoubleVector site_density = {};
-  /// Fields of the mesh, in its order. NetCDF formats hold them at cells, all but SCRIP at
-  /// vertices, full MPAS at edges. VTK holds those at cells and vertices, GeoJSON those at cells,
-  /// with one number for each. Other formats ignore them. In names, NetCDF formats
-  /// replace characters other than letters, digits and _.+-@ by _. Default: none.
+  /// Fields of the mesh, in its order. NetCDF formats store fields at cells, all but SCRIP at
+  /// vertices, full MPAS at edges. VTK stores fields at cells and vertices, GeoJSON those at cells,
+  /// with one number for each. Other formats ignore them. In names, NetCDF formats replace
+  /// characters other than letters, digits and _.+-@ by _. Default: none.
   std::vector<MeshField> fields = {};
   /// Dimensions of complete MPAS files besides those of the mesh and of fields: some models look
   /// for them, see models(). Default: none.
@@ -153,9 +155,9 @@ struct WriteOptions {
 ///         not_finite or zero_vector as renumbered(); cancelled; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
-/// The same for a mesh handed over, which needs less memory: MPAS formats reuse the mesh's arrays
-/// and free each after its last use. The mesh is empty afterwards. If the function throws, the mesh
-/// is unchanged or empty.
+/// The same for a mesh that the function may move, with less memory: MPAS formats reuse the mesh's
+/// arrays and free each after its last use. The mesh is empty afterwards. If the function throws,
+/// the mesh is unchanged or empty.
 void write(const std::string& path, Mesh&& mesh, const WriteOptions& options = {});
 
 /// The format in which `write` writes a path: the option, or for by_name the format of the name.
@@ -170,7 +172,7 @@ Format format_of(const std::string& path, Format option = Format::by_name);
 /// All formats but by_name.
 const std::vector<FormatInfo>& formats();
 
-/// That of one. \pre not by_name.
+/// The properties of one format. \pre not by_name.
 const FormatInfo& info_of(Format format);
 
 /// A model, and the options of write() that suit it.
@@ -179,7 +181,7 @@ struct ModelNeeds {
   std::string name;         ///< such as "MPAS-Ocean"
   Format format;            ///< of its files
   double sphere_radius = 1; ///< of its files
-  /// Whether it takes lengths as they are, in metres, so that other radii of a planet suit it, too.
+  /// Whether it uses lengths unchanged, in metres, so that other radii of a planet suit it, too.
   bool any_planet = false;
   Numbering numbering = Numbering::by_format;          ///< of the cells
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of MPAS files

@@ -13,16 +13,16 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// What write_grid() wrote.
+/// The result of write_grid().
 struct GridFile {
   std::int64_t cells = 0; ///< of the file
-  /// Those whose generators lie in the surface of the recipe: the cells of a limited area but for
-  /// its rings; else all.
+  /// The cells whose generators lie in the surface of the recipe: the cells of a limited area
+  /// without its rings; else all.
   std::int64_t inside = 0;
   Eigen::Vector2d period{0, 0}; ///< of the file's plane; 0 across walls, and on the sphere
 };
 
-/// Writes the part of a run's mesh that its recipe asks for:
+/// Writes the part of a run's mesh that its recipe requests:
 ///
 /// - of a limited area the cells of the region and of the rings around it, see
 ///   write_limited_area(); an MPAS file;
@@ -33,7 +33,7 @@ struct GridFile {
 ///     write_grid("grid.nc", make_grid(schedule).mesh, recipe, schedule);
 ///
 /// \param mesh of make_grid(schedule).
-/// \param recipe what was asked for.
+/// \param recipe the request.
 /// \param schedule plan(recipe); its density is that of the file.
 /// \param options `density` and `site_density` have no effect; fields apply to a mesh that is
 ///        written whole.
@@ -42,7 +42,7 @@ struct GridFile {
 GridFile write_grid(const std::string& path, const Mesh& mesh, const Recipe& recipe,
                     const Schedule& schedule, const WriteOptions& options = {});
 
-/// The same for a mesh handed over, which needs less memory, see write(). The mesh is empty
+/// The same for a mesh that the function may move, with less memory, see write(). The mesh is empty
 /// afterwards. If the function throws, the mesh is unchanged or empty.
 GridFile write_grid(const std::string& path, Mesh&& mesh, const Recipe& recipe,
                     const Schedule& schedule, const WriteOptions& options = {});
