@@ -25,8 +25,8 @@ std::string in_words(const std::vector<std::int64_t>& shape);
 /// Arguments are names in the file; messages contain the path and the variable. Every method
 /// \throws Error parse, file.
 ///
-/// Through the C library, `calotte check` of an MPAS file of 655 362 cells takes 1.18 times as long,
-/// `info` 1.10, `convert` 1.03 (two cores, medians of three interleaved runs).
+/// Through the C library, `calotte check` of an MPAS file of 655 362 cells takes 1.18 times as
+/// long, `info` 1.10, `convert` 1.03 (two cores, medians of three interleaved runs).
 ///
 ///     const NetcdfReader file("mesh.nc");
 ///     const std::int64_t n = file.dimension("nCells");
