@@ -29,6 +29,8 @@ def check_versions(project):
             "CMakeLists.txt": f"project(calotte VERSION {version} ",
             "CITATION.cff": f"\nversion: {version}\n",
             ".github/CHANGELOG.md": f"\n## {version} (",
+            "README.md": f"tar xf calotte-{version}-linux-x86_64.tar.gz",
+            "tools/manual/install.md": f"tar xf calotte-{version}-linux-x86_64.tar.gz",
             "tools/manual/index.md": f"\ncalotte {version}\n"}.items():
         require(text in (project / file).read_text(), f"{file} does not name version {version}")
 
