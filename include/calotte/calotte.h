@@ -2,33 +2,33 @@
 #pragma once
 
 /// All of the library.
-#include <calotte/check.h>
-#include <calotte/checkpoint.h>
-#include <calotte/cut.h>
-#include <calotte/cvt.h>
-#include <calotte/delaunay.h>
-#include <calotte/density.h>
-#include <calotte/error.h>
-#include <calotte/export.h>
-#include <calotte/field_grid.h>
-#include <calotte/generators.h>
-#include <calotte/grid.h>
-#include <calotte/limited_area.h>
-#include <calotte/locate.h>
-#include <calotte/matrices.h>
-#include <calotte/mesh.h>
-#include <calotte/mesh_file.h>
-#include <calotte/ocean.h>
-#include <calotte/partition.h>
-#include <calotte/progress.h>
-#include <calotte/quality.h>
-#include <calotte/raster.h>
-#include <calotte/read.h>
-#include <calotte/refine.h>
-#include <calotte/remap.h>
-#include <calotte/surface.h>
-#include <calotte/version.h>
-#include <calotte/voronoi.h>
-#include <calotte/widths.h>
-#include <calotte/write.h>
-#include <calotte/write_grid.h>
+#include <calotte/check.h>        // whether a mesh is Delaunay, in exact arithmetic
+#include <calotte/checkpoint.h>   // the state of a run in a file
+#include <calotte/cut.h>          // parts of files: limited areas cut, land culled
+#include <calotte/cvt.h>          // recipes, schedules, reports and states of runs
+#include <calotte/delaunay.h>     // triangulations of points
+#include <calotte/density.h>      // densities of cells
+#include <calotte/error.h>        // what is thrown
+#include <calotte/export.h>       // what a shared library exports
+#include <calotte/field_grid.h>   // interpolation between files
+#include <calotte/generators.h>   // points to start from, longitudes and latitudes
+#include <calotte/grid.h>         // grids by recipes: plan() and make_grid()
+#include <calotte/limited_area.h> // grids of limited areas
+#include <calotte/locate.h>       // which triangle and which cell holds a point
+#include <calotte/matrices.h>     // points, ids and lists
+#include <calotte/mesh.h>         // meshes, polygons, fields, neighbours
+#include <calotte/mesh_file.h>    // what a file of a mesh holds, and its check
+#include <calotte/ocean.h>        // land, seas and coasts
+#include <calotte/partition.h>    // parts of cells for processes
+#include <calotte/progress.h>     // progress and cancelling
+#include <calotte/quality.h>      // what a model judges a grid by
+#include <calotte/raster.h>       // rasters of longitude and latitude, or x and y
+#include <calotte/read.h>         // files that are read
+#include <calotte/refine.h>       // finer or coarser cells in a part
+#include <calotte/remap.h>        // weights and interpolation
+#include <calotte/surface.h>      // the sphere, planes and their parts
+#include <calotte/version.h>      // the version
+#include <calotte/voronoi.h>      // the dual mesh, its edges and fields
+#include <calotte/widths.h>       // cell widths as rules and rasters
+#include <calotte/write.h>        // meshes written, for models
+#include <calotte/write_grid.h>   // grids in formats of their cells

@@ -24,7 +24,7 @@ namespace calotte {
 /// centre.
 struct DensityBump {
   Eigen::Vector3d centre{0, 0, 1};  ///< a direction, finite and non-zero
-  double beta = 0.5235987755982988; ///< radius in radians, > 0; default pi / 6
+  double beta = 0.5235987755982988; ///< radius in radians, > 0, at most pi; default pi / 6
   double alpha = 0.2;               ///< width of the transition in radians, > 0
   double gamma = 1.0 / 4096;        ///< density far from the centre; 0 < gamma < 1
   /// Ratio of the axes of an elliptic bump: distances along the long axis are divided by it; >= 1.
@@ -40,7 +40,8 @@ class SampledWidths;
 }
 
 /// A density rho >= 0 on the unit sphere or in the plane: uniform, one or more bumps, that of cell
-/// widths, or a callable. Only its ratios matter. Default: uniform.
+/// widths, or a callable. Only its ratios matter: widths of cells follow rho^(-1/4), so that cells
+/// are 4 times finer where rho is 256 times as large. Default: uniform.
 struct Density {
   /// Uniform, the maximum or the sum of the bumps, that of widths, or the callable.
   enum class Kind { uniform, maximum, sum, widths, callable };

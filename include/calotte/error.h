@@ -15,8 +15,8 @@ enum class ErrorCode {
   not_finite,  ///< a coordinate is NaN or infinite
   zero_vector, ///< a point at the origin has no direction
   duplicate,   ///< equal directions or positions, which Duplicates::refuse does not allow
-  /// Fewer than 4 distinct sites on the sphere, 3 in the plane, or 12 generators of a spherical
-  /// CVT; sites that leave an empty circle wider than half of a periodic box.
+  /// Fewer than 3 distinct sites, or 12 generators of a CVT of the whole sphere; sites that leave
+  /// an empty circle wider than half of a periodic box.
   too_few_sites,
   degenerate,       ///< all sites on one great circle or line
   invalid_argument, ///< an argument or option of the wrong shape or out of its range

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#if __cplusplus < 201709L // what GCC 10 says for C++20
+#error "Calotte's headers need C++20: compile with -std=c++20"
+#endif
+
 /// The shared library exports the declarations between these two macros in a public header. All
 /// else is compiled with hidden visibility.
 #ifdef __GNUC__

@@ -68,12 +68,15 @@ template <class Items, class Begin = Offsets> struct Lists {
   std::int64_t size() const { return std::ssize(begin) > 0 ? std::ssize(begin) - 1 : 0; }
   /// The number of items of list i.
   std::int64_t count(std::int64_t i) const { return begin.data()[i + 1] - begin.data()[i]; }
-  /// The items of list i.
-  auto operator[](std::int64_t i) const {
+  /// The items of list i. The lists must outlive the span: keep the result of a function before you
+  /// walk through one of its lists.
+  auto operator[](std::int64_t i) const& {
     return std::span(items.data() + begin.data()[i], length(i));
   }
   /// The items of list i, for writing.
-  auto operator[](std::int64_t i) { return std::span(items.data() + begin.data()[i], length(i)); }
+  auto operator[](std::int64_t i) & { return std::span(items.data() + begin.data()[i], length(i)); }
+  auto operator[](std::int64_t i) && = delete;
+  auto operator[](std::int64_t i) const&& = delete;
 
 private:
   std::size_t length(std::int64_t i) const { return static_cast<std::size_t>(count(i)); }

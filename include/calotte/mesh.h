@@ -33,7 +33,7 @@ struct Mesh {
   /// in a periodic direction in [0, period).
   Points3 points = {};
   Triangles triangles = {};  ///< 3 x m site ids
-  Triangles neighbours = {}; ///< 3 x m triangle ids, or -1
+  Triangles neighbours = {}; ///< 3 x m ids of triangles, or -1; those of sites: neighbours(mesh)
   /// For each input column its site. A duplicate has the site of the lowest equal column.
   std::vector<std::int32_t> site_of_input = {};
   /// Where the points live; in a plane its rings clip the Voronoi cells. Default: the sphere.
@@ -67,6 +67,11 @@ struct Polygons {
 /// more than once, the lists of its fans of triangles follow each other, in the order of their
 /// first triangles. A site in no triangle has none. In a small periodic domain two sites may share
 /// more than one edge, and are then neighbours as often. Linear time.
+///
+///     const IdLists around = neighbours(mesh);
+///     for (const std::int32_t site : around[17])
+///       std::cout << site << "\n";
+///
 /// \param mesh as delaunay() or read_mesh() returns it; it may be open, and need not be Delaunay.
 /// \throws Error invalid_argument for ids out of range, and neighbours that do not match the
 ///         triangles, with the index of the triangle.

@@ -25,8 +25,10 @@ struct Progress {
 /// The action of a call after its callback.
 enum class ProgressReply {
   proceed, ///< goes on
-  stop,    ///< make_grid() ends with the grid as it is, marked not converged; others as `cancel`
-  cancel,  ///< throws Error cancelled, and leaves no result and no file
+  /// make_grid() ends with the grid as it is, marked not converged. Before the last level it has
+  /// fewer cells than the recipe asks for. Other functions act as for `cancel`.
+  stop,
+  cancel, ///< throws Error cancelled, and leaves no result and no file
 };
 
 /// Called at the start of each stage and between the parallel tasks of a call: after each region,

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -34,14 +35,24 @@ template <class AnyLists> void check_lists(AnyLists lists) {
   CHECK(fixed[3].back() == 4);
 }
 
+template <class T>
+concept HasLists = requires(T lists) {
+  std::forward<T>(lists)[0];
+};
+
+// A loop over a list of a temporary would read freed memory.
+static_assert(HasLists<IdLists&> && HasLists<const IdLists&>);
+static_assert(!HasLists<IdLists> && !HasLists<const IdLists>);
+
 } // namespace
 
 TEST_CASE("lists: none, empty ones, their items to be read and to be set") {
   CHECK(IdLists().size() == 0);
   CHECK(VectorLists().size() == 0);
   CHECK(IdLists{Offsets::Zero(1), {}}.size() == 0);
-  CHECK(VectorLists{{0, 0}, {}}.size() == 1);
-  CHECK(VectorLists{{0, 0}, {}}[0].empty());
+  const VectorLists one{{0, 0}, {}};
+  CHECK(one.size() == 1);
+  CHECK(one[0].empty());
   check_lists(IdLists{Offsets{{0, 0, 3, 3, 4}}, Ids{{7, 8, 9, 5}}});
   check_lists(VectorLists{{0, 0, 3, 3, 4}, {7, 8, 9, 5}});
 }
