@@ -21,8 +21,8 @@ namespace {
 
 constexpr double least_share = 6e-5; ///< a thousandth of that of an equilateral triangle
 
-/// The terms of a triangle in the weights of its edges, divided by the edges' squared lengths: (1/4
-/// - d^2/3) d, d = delta/l. Entry i is for the edge from vertex i to the next.
+/// The terms of a triangle in the weights of its edges, divided by the edges' squared lengths, with
+/// d = delta/l: (1/4 - d^2/3) d. Entry i is for the edge from vertex i to the next.
 using Shares = std::array<float, 3>;
 
 /// \param ratio delta/l, delta the signed distance from the edge's middle to the circumcentre.
@@ -39,7 +39,7 @@ double arc_ratio(double square, double q) {
 }
 
 /// \param most bound of |delta|/l.
-Shares split_into_shares(const Sphere&, const std::array<Vec3, 3>& x, double most) {
+Shares edge_shares(const Sphere&, const std::array<Vec3, 3>& x, double most) {
   const double inverse = 1 / norm(cross(x[1] - x[0], x[2] - x[0]));
   Shares shares;
   for (int v = 0; v < 3; ++v) {
@@ -50,7 +50,7 @@ Shares split_into_shares(const Sphere&, const std::array<Vec3, 3>& x, double mos
   return shares;
 }
 
-Shares split_into_shares(const Plane& plane, const std::array<Vec3, 3>& x, double) {
+Shares edge_shares(const Plane& plane, const std::array<Vec3, 3>& x, double) {
   Shares shares;
   for (int v = 0; v < 3; ++v) {
     const Vec3& c = x[previous_vertex(v)];
@@ -77,9 +77,8 @@ public:
     return sites_.positions.space.offset(position(from), position(to));
   }
   Shares shares(const std::array<Vec3, 3>& x) const {
-    return split_into_shares(sites_.positions.space, x,
-                             sites_.outline != nullptr ? 0.5
-                                                       : std::numeric_limits<double>::infinity());
+    return edge_shares(sites_.positions.space, x,
+                       sites_.outline != nullptr ? 0.5 : std::numeric_limits<double>::infinity());
   }
   /// The weight, for rho = 1/2, of the edge from i to j, which has c to its left and d to its
   /// right.
@@ -92,8 +91,8 @@ public:
     return usual;
   }
   /// The other terms on the diagonal. A boundary that faces away from the generator, such as the
-  /// far side of an island, contributes a negative term. The sum is raised to 0, so that the matrix
-  /// stays positive.
+  /// far side of an island, contributes a negative term. A negative sum of these counts as 0, so
+  /// that the matrix stays positive.
   /// \param area of the site.
   double diagonal_terms(std::int32_t i, double rho, double area) const {
     if (S::on_sphere && sites_.outline == nullptr)

@@ -27,7 +27,7 @@ Tessellation<S>::Tessellation(Cells<S> cells, const Points3& points,
   if (sites.size() != generators_) // two points coincide
     cells_.triangulate();          // refuses them
   Regions regions = delaunay_detail::divide(sites, decomposition_);
-  Owners owners = rank_owners(sites, regions);
+  Owners owners = owners_by_site(sites, regions);
   if (!level.mesh) {
     mesh_ = cells_.triangulate(std::move(sites), std::move(regions));
     adopt(std::move(owners));
@@ -63,7 +63,7 @@ template <Space S> void Tessellation<S>::divide() {
   division_.patches.clear(); // sorting takes as much memory
   std::optional<Owners> owners;
   if (const Sites sites = cells_.sites(); sites.size() == generators_)
-    owners = rank_owners(sites, delaunay_detail::divide(sites, decomposition_));
+    owners = owners_by_site(sites, delaunay_detail::divide(sites, decomposition_));
   // If two points coincide, the old regions stay; a new triangulation will report the error.
   adopt(owners ? std::move(*owners)
                : Owners{std::move(division_.ownership.owner),
@@ -71,8 +71,8 @@ template <Space S> void Tessellation<S>::divide() {
 }
 
 template <Space S>
-typename Tessellation<S>::Owners Tessellation<S>::rank_owners(const Sites& sites,
-                                                              const Regions& regions) const {
+typename Tessellation<S>::Owners Tessellation<S>::owners_by_site(const Sites& sites,
+                                                                 const Regions& regions) const {
   const auto count = static_cast<std::int32_t>(regions.centres.size());
   Owners owners{Array<std::int32_t>(cells_.site_count()), count};
   std::fill(owners.owner.begin() + generators_, owners.owner.end(), 0);

@@ -127,7 +127,7 @@ private:
   bool repair_faults(const Faults& faults, Effort& effort);
   void rebuild(Effort& effort);
   Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
-  Owners rank_owners(const Sites& sites, const Regions& regions) const;
+  Owners owners_by_site(const Sites& sites, const Regions& regions) const;
   void set_division(Owners&& owners);
   void adopt(Owners&& owners);
   void note_sample();

@@ -72,8 +72,8 @@ void set_cells(const OpenLists& lists, Voronoi& out) {
 // ---- Positions and measures
 
 /// Reads the coordinates of vertices or edges; none if the file has none.
-Points3 read_points(const MpasKind& kind, std::int64_t count, bool on_sphere,
-                    Deviations& deviations) {
+Points3 read_coordinates(const MpasKind& kind, std::int64_t count, bool on_sphere,
+                         Deviations& deviations) {
   Points3 points(3, std::max<std::int64_t>(count, 0));
   for (int row = 0; row < 3; ++row) {
     const std::string name = kind.axis(row);
@@ -103,7 +103,7 @@ void set_vertex_positions(Points3 stored, Voronoi& out) {
 Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
   constexpr double halves_agree = 1e-5; // tolerance for half the distance to the missing cell
   const std::int64_t edges = part.cells_on_edge.cols();
-  Points3 points = read_points(mpas_edge, edges, part.surface.is_sphere(), deviations);
+  Points3 points = read_coordinates(mpas_edge, edges, part.surface.is_sphere(), deviations);
   if (points.cols() == 0 || !deviations.has(mpas::dc_edge, {edges}))
     return {};
   const std::vector<double> lengths = deviations.file().doubles(mpas::dc_edge, {edges});
@@ -172,8 +172,9 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   part.surface = file.mesh->surface;
   part.cells = unit_points(file);
   MpasCheck check{.deviations = deviations, .voronoi = part, .radius = radius, .closed = false};
-  Points3 vertices = read_points(mpas_vertex, deviations.file().dimension(mpas_vertex.dimension()),
-                                 part.surface.is_sphere(), deviations);
+  Points3 vertices =
+      read_coordinates(mpas_vertex, deviations.file().dimension(mpas_vertex.dimension()),
+                       part.surface.is_sphere(), deviations);
   const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
                      lists.cells_on_edge.rows() > 0;
   if (!whole)

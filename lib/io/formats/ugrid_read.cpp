@@ -181,23 +181,23 @@ Polygons make_polygons(const FaceNodes& faces, Points3 nodes, Points3 centres, b
 }
 
 /// Finds the first node that other than three faces surround.
-std::int64_t find_incomplete_node(const Dual& make_triangles) {
-  if (make_triangles.failed >= 0)
-    return make_triangles.failed;
+std::int64_t find_incomplete_node(const Dual& dual) {
+  if (dual.failed >= 0)
+    return dual.failed;
   std::int64_t node = 0;
-  while (node < make_triangles.corner.size() && make_triangles.corner[node] == node)
+  while (node < dual.corner.size() && dual.corner[node] == node)
     ++node;
   return node;
 }
 
 /// Makes a triangle of faces at each node.
 Triangles make_triangles(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
-  Dual make_triangles = make_dual(make_polygons(faces, {}, {}, false), nodes);
-  if (make_triangles.failed >= 0 || make_triangles.triangles.cols() < nodes)
+  Dual dual = make_dual(make_polygons(faces, {}, {}, false), nodes);
+  if (dual.failed >= 0 || dual.triangles.cols() < nodes)
     file.fail("the faces around node {} (0-based) are not three that share edges; make the file "
               "again",
-              find_incomplete_node(make_triangles));
-  return std::move(make_triangles.triangles);
+              find_incomplete_node(dual));
+  return std::move(dual.triangles);
 }
 
 /// The names of the variables that the mesh variable refers to. They are not fields.

@@ -48,7 +48,7 @@ double read_radius(const NetcdfReader& file) {
   return radius;
 }
 
-Points3 read_points(const NetcdfReader& file, const MpasKind& kind, std::int64_t count) {
+Points3 read_coordinates(const NetcdfReader& file, const MpasKind& kind, std::int64_t count) {
   Points3 points(3, count);
   for (int row = 0; row < 3; ++row) {
     const std::vector<double> values = file.doubles(kind.axis(row), {count});
@@ -137,9 +137,11 @@ MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
                 count, width);
 }
 
-Points3 MpasSource::generators() const { return read_points(netcdf_, mpas_cell, cells_); }
+Points3 MpasSource::generators() const { return read_coordinates(netcdf_, mpas_cell, cells_); }
 
-Points3 MpasSource::vertex_points() const { return read_points(netcdf_, mpas_vertex, vertices_); }
+Points3 MpasSource::vertex_points() const {
+  return read_coordinates(netcdf_, mpas_vertex, vertices_);
+}
 
 IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const {
   Kept all{Array<std::int32_t>(cells_), {}};
