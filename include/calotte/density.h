@@ -94,8 +94,7 @@ DoubleVector evaluate(const Density& density, const PointsRef& points, const Sur
 /// \param mesh the density keeps a copy of what it needs.
 /// \param density n values >= 0, finite, by site.
 /// \throws Error invalid_argument for another number of values, a value out of range, no triangle,
-/// or
-///         a site more than 2^30 periods from the box.
+///         or a site more than 2^30 periods from the box.
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density);
 
 /// The density that interpolates a raster.

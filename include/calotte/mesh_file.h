@@ -30,7 +30,7 @@ DoubleVector areas(const Polygons& polygons);
 /// follow the others. Other polygons are unchanged.
 Polygons unwrapped(Polygons polygons);
 
-/// Measures of polygons, and counts of those that are no centroidal Voronoi cells.
+/// Measures of polygons, and counts of those whose shape is not that of a centroidal Voronoi cell.
 struct PolygonShapes {
   ValueRange area; ///< steradians; in a plane the square of its unit
   /// Distance of the centres of two polygons that share a side, radians or the plane's unit; all 0
@@ -50,7 +50,7 @@ struct PolygonShapes {
   std::int64_t worst_centred = -1; ///< the polygon that has it; -1 without centres
 };
 
-/// Measures polygons. Polygons without corners do not count.
+/// Measures polygons. Polygons without corners, which are unknown, do not count.
 /// \pre counter-clockwise, each smaller than a hemisphere.
 PolygonShapes shapes(const Polygons& polygons);
 
@@ -267,8 +267,10 @@ void require_fields(const MeshFile& file, const FieldMethods& methods);
 /// linear are those of the nearest old cell. The density at new cells is the old one there, made
 /// denser as the widths are finer. Masks of a limited area at edges and vertices follow when an
 /// MPAS file is written. The field mapNewToBase is added: the number of each cell in the old file,
-/// from 1 on, and 0 for new cells. \param old the file, as read_mesh_file() returns it; that of a
-/// plane whose rings clip the cells with them, see filled_surface(). \param changed of its mesh.
+/// from 1 on, and 0 for new cells.
+/// \param old the file, as read_mesh_file() returns it; that of a plane whose rings clip the cells
+///        with them, see filled_surface().
+/// \param changed of its mesh.
 /// \throws Error invalid_argument for a file without a mesh, for polygons that are not those of its
 ///         sites; for conservative fields of an open mesh without cells; as require_fields().
 ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,

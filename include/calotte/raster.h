@@ -28,8 +28,7 @@ struct Raster {
 /// \param points 3 x n directions; in a plane 2 x n, or 3 x n with z = 0.
 /// \returns n values; NaN next to a node that is NaN.
 /// \throws Error invalid_argument if the axes or the shape violate the conditions of Raster, and
-/// for
-///         another number of rows.
+///         for another number of rows.
 DoubleVector evaluate(const Raster& raster, const PointsRef& points);
 
 } // namespace calotte

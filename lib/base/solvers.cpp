@@ -1,8 +1,10 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Eigen's solvers have matrices of the default options as
-// members. Eigen allocates these in another way in files that are compiled for AVX, and the linker
-// keeps one copy of an inline function: a program of both kinds of files may allocate in one way
-// and free in the other. So this file has Eigen under a name of its own, and includes no header
-// that has it under its usual name. It is not precompiled.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Eigen's solvers have matrices of the default options as members. Eigen allocates these in another
+// way in files that are compiled for AVX, and the linker keeps one copy of an inline function: a
+// program of both kinds of files may allocate in one way and free in the other. So this file has
+// Eigen under a name of its own, and includes no header that has it under its usual name. It is not
+// precompiled.
 #define Eigen calotte_eigen
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>

@@ -60,15 +60,13 @@ public:
 
   const S& space() const { return space_; }
   std::int64_t generator_count() const { return generators_; }
-  std::int64_t site_count() const {
-    return std::ssize(sites_);
-  } ///< sites of the mesh: generators come first
+  /// The number of sites of the mesh, of which generators come first.
+  std::int64_t site_count() const { return std::ssize(sites_); }
   const Vec3& position(std::int32_t site) const { return sites_[static_cast<std::size_t>(site)]; }
   SitePositions<S> positions() const { return {space_, sites_}; }
   Vec3 offset(const Vec3& from, const Vec3& to) const { return space_.offset(from, to); }
-  bool has_hull() const {
-    return outline_ != nullptr;
-  } ///< whether sites of the mesh have no generator
+  /// Whether the mesh has sites that are no generators.
+  bool has_hull() const { return outline_ != nullptr; }
   /// Whether the surface has the circumcentre of a triangle of generators; with generators on the
   /// boundary, its centre of mass.
   bool has_centre(const Vec3& a, const Vec3& b, const Vec3& c) const;

@@ -30,10 +30,10 @@ struct EdgeChanges {
 /// Does what split_and_collapse() does.
 Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes);
 
-/// Whether the gap between two fixed generators needs no further generator. Their midpoint is
-/// within a fifth of their distance of the boundary, or they are as near to each other as the
-/// density demands. A free generator would stay between them, in a cell far too small. \param
-/// outline null without a boundary.
+/// Whether the gap between two fixed generators needs no further generator: the boundary is nearer
+/// to their midpoint than a fifth of their distance, or they are about as near to each other as the
+/// density demands. A free generator would stay between them, in a cell far too small.
+/// \param outline null without a boundary.
 template <Space S>
 bool is_full_gap(const OutlineOf<S>* outline, const DemandedSpacing& spacing, const S& space,
                  const Vec3& a, const Vec3& b);

@@ -24,11 +24,10 @@ void require_gradient(double gradient);
 /// The requirements of limit_gradient() on the nodes of a raster.
 ///
 ///     std::int32_t size() const;
-///     double distance(std::int32_t a, std::int32_t b) const;   // straight, > 0 for two points
-///     bool sees(std::int32_t a, std::int32_t b) const;         // the straight way is in the
-///     domain void for_each_neighbour(std::int32_t a, body) const;     // nodes that a sees, in
-///     order double step() const;                                     // typical, between
-///     neighbours
+///     double distance(std::int32_t a, std::int32_t b) const;  // straight, > 0 for two points
+///     bool sees(std::int32_t a, std::int32_t b) const;  // the straight way is in the domain
+///     void for_each_neighbour(std::int32_t a, body) const;  // nodes that a sees, in order
+///     double step() const;  // a typical distance of neighbours
 template <class T>
 concept RasterNodes = requires(const T& nodes, std::int32_t a) {
   { nodes.size() } -> std::convertible_to<std::int32_t>;

@@ -17,7 +17,7 @@ namespace calotte::grids_detail {
 /// its widths and the demand must outlive it.
 class Demand {
 public:
-  /// \param own widths of the mesh; a demand on a region is a part of these.
+  /// \param own widths of the mesh; the demand of a region is a fraction of these.
   Demand(const WidthDemand& demand, Way way, const Mesh& mesh, const DoubleVector& own);
   Demand(const Demand&) = delete; // one part refers to another
   Demand& operator=(const Demand&) = delete;
@@ -29,8 +29,8 @@ public:
   /// By site of a mesh, the finest demand on its cell: that at the site, or at a position in the
   /// triangles around it, increased by the gradient times the distance. The positions are a lattice
   /// in each triangle, as dense as the least demand, up to sixteen times as dense as the sites and
-  /// some millions in all. For a region they lie along its boundary. \param own widths of that
-  /// mesh.
+  /// some millions in all. For a region they lie along its boundary.
+  /// \param own widths of that mesh.
   /// \param may_change by site; infinite for others.
   DoubleVector on_cells(const Mesh& mesh, const DoubleVector& own, const Marks& may_change,
                         double gradient) const;

@@ -198,8 +198,7 @@ bool is_delaunay(const Mesh& mesh, const S& space, const std::vector<std::uint8_
 /// Triangulates all sites again, where a patch does not fit: around irregular cells, circumcircles
 /// may extend beyond the rows that stay, so that these rows get other triangles, too.
 /// \throws Error invalid_argument, for a mesh that is not Delaunay where it changes, and for an
-/// open
-///         one, whose boundary the sites do not tell.
+///         open one, whose boundary the sites do not tell.
 template <Space S>
 void triangulate_anew(const Mesh& old, const S& space, const std::vector<PatchRegion>& patches,
                       Mesh& mesh) {

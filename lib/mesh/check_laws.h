@@ -14,14 +14,18 @@
 #include <cstdint>
 #include <string>
 
-/// The laws that check() proves, for a surface of either kind: a Surface has Faces and knows circle
-///   what the predicate's circle is called, after "circum" orientation(a, b, c) of three sites near
-///   a in_circle(a, b, c, d) of four sites near a, ties resolved stored(site) address of the
-///   coordinates that the predicates read first cube_faces, square(site) its position, for a
-///   Traversal own_failure(t) the failure of a triangle that is specific to this surface
-///   euler(boundary edges) the characteristic that it must have area(t) of a triangle known to be
-///   counter-clockwise set_area(sum, result) sets what result tells of the areas area_failure(sum,
-///   result) of the areas' sum
+/// The laws that check() proves, for a surface of either kind: a Surface has Faces and knows
+///
+///     circle                     what the predicate's circle is called, after "circum"
+///     orientation(a, b, c)       of three sites near a
+///     in_circle(a, b, c, d)      of four sites near a, ties resolved
+///     stored(site)               address of the coordinates that the predicates read first
+///     cube_faces, square(site)   position of a site, for a Traversal
+///     own_failure(t)             failure of a triangle that only this kind of surface has
+///     euler(boundary edges)      the characteristic that it must have
+///     area(t)                    of a triangle known to be counter-clockwise
+///     set_area(sum, result)      sets what result tells of the areas
+///     area_failure(sum, result)  failure of the areas' sum
 namespace calotte::mesh_detail {
 
 /// The property to prove: that a mesh is the Delaunay triangulation of its points, or that it is a
@@ -30,8 +34,8 @@ namespace calotte::mesh_detail {
 enum class Proof { delaunay, surface };
 
 /// Tests the laws in an order in which each may rely on those before it.
-/// \param site_failure(i) the failure of a site alone; surface() is called when all sites are
-/// valid.
+/// \param site_failure(i) the failure of a site alone.
+/// \param surface called when all sites are valid.
 template <class SiteFailure, class MakeSurface>
 std::string first_broken_law(const Mesh& mesh, const SiteFailure& site_failure,
                              const MakeSurface& surface, Proof proof, CheckReport& result,

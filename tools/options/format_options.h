@@ -43,8 +43,8 @@ std::string help_of_output();
 bool is_mpas(Format format);
 
 /// The options of a file of this name, without density and history. A model determines what the
-/// other options do not give. \throws Error invalid_argument, before any work: for a name that is
-/// no mesh's, or of another
+/// other options do not give.
+/// \throws Error invalid_argument, before any work: for a name that is no mesh's, or of another
 ///         format than --format or the model's; for a radius that the model cannot use, or one that
 ///         is not positive, or not 1 where the format takes points as they are; for an order of
 ///         triangles alone, which go with the points they were made from.

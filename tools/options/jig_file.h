@@ -13,8 +13,7 @@ namespace calotte::tools {
 class JigFile {
 public:
   /// \throws Error parse, "PATH line LINE: problem": a line that is none, an option that JIGSAW
-  /// does
-  ///         not have, or that asks for what Calotte does not make; file.
+  ///         does not have, or that asks for what Calotte does not make; file.
   explicit JigFile(const std::string& path);
 
   /// The values of options. \throws Error parse, for one that is none of its kind.

@@ -25,9 +25,10 @@ struct SpacingSurvey {
 /// area sqrt(3)/2 h^2.
 ///
 /// A region is surveyed by as many random points, so that the spacings err by about a hundredth if
-/// the density is steep, unless `unit` is given. \param cells > 0, in the region. \param unit the
-/// spacing where the density is 1, if it is known; 0 otherwise. \throws Error as evaluate() and
-/// random_sphere().
+/// the density is steep, unless `unit` is given.
+/// \param cells > 0, in the region.
+/// \param unit the spacing where the density is 1, if it is known; 0 otherwise.
+/// \throws Error as evaluate() and random_sphere().
 SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Surface& region = {},
                              double unit = 0);
 

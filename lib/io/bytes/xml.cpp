@@ -12,8 +12,8 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr std::size_t parse_bytes = std::size_t{1}
-                                    << 20; ///< size of the pieces that the parser receives
+/// Size of the pieces that the parser receives.
+constexpr std::size_t parse_bytes = std::size_t{1} << 20;
 /// Maximum size in bytes of a tag or a comment. The parser scans each from its start again with
 /// every piece of the text.
 constexpr std::int64_t longest_tag = 2 * parse_bytes;
