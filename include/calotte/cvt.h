@@ -309,8 +309,8 @@ struct Cvt {
 /// let rows of cells end. A descent cannot create them; this function can.
 /// \param mesh on the sphere of columns of any norm.
 /// \param splits, collapses numbers of edges, >= 0.
-/// \returns the points that remain, in their order, a midpoint at the index of the lower end of a
-///          collapsed edge, then the midpoints of split ones; on the sphere unit columns.
+/// \returns the points that remain, in their order, a midpoint where the lower end of a collapsed
+///          edge was, then the midpoints of split ones; on the sphere unit columns.
 /// \throws Error invalid_argument for a negative number, more than 2^30 points, an id out of range,
 ///         or an ill-formed density.
 Points3 split_and_collapse(const Mesh& mesh, const Density& density, std::int64_t splits,

@@ -41,7 +41,8 @@ struct FieldGrid {
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all);
 
 /// The same for a file of fields without their mesh, such as a model's history, and a file of the
-/// mesh. The dimension of the mesh's cells is nCells, or the only dimension of their number.
+/// mesh. In the file of fields, nCells is the dimension of the cells, or else the only dimension of
+/// their number.
 /// \throws Error as above; parse for a file without such a dimension; invalid_argument for a mesh
 ///         file that is a raster.
 FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,

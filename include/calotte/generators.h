@@ -137,8 +137,8 @@ Points3 geodesic_sphere(std::int64_t n);
 
 /// A number of points for a uniform grid, near a given one. It is the number of a bisected
 /// icosahedron, which many models support, if that is within 0.5 percent; else the nearest number
-/// of a symmetric geodesic grid within 0.5 percent, of two equally near ones the larger; else the
-/// given number, rounded.
+/// of a symmetric geodesic grid, of two equally near ones the larger, if that is within 0.5
+/// percent; else the given number, rounded.
 /// \param points 12 to 2^30.
 std::int64_t geodesic_count(double points);
 

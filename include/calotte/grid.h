@@ -31,7 +31,8 @@ namespace calotte {
 ///         line_points() and evaluate().
 Schedule plan(Recipe recipe);
 
-/// Options that affect a run's time and memory, and the state from which it continues.
+/// Options that do not change a run's result, unless the callback stops it, and the state from
+/// which it continues.
 struct RunOptions {
   Decomposition decomposition = {}; ///< see Decomposition
   ProgressCallback progress = {};   ///< called after each accepted iteration
@@ -43,9 +44,9 @@ struct RunOptions {
 
 /// Makes the centroidal Voronoi tessellation of a recipe: calls plan(), makes the points of the
 /// start, and executes the descents of the schedule. These move the generators until they are, up
-/// to the tolerance, the centroids of their cells, and minimise the energy, the sum over cells of
-/// the integral of rho
-/// |x - x_i|^2; on the sphere the constrained centroids (Jacobsen et al., 2013, Sect. 3.3).
+/// to the tolerance, the centroids of their cells, on the sphere the constrained centroids
+/// (Jacobsen et al., 2013, Sect. 3.3). They minimise the energy, the sum over cells of the integral
+/// of rho |x - x_i|^2.
 ///
 /// The result has the same bits for any number of threads and regions, and for a run that a state
 /// continues. A run that does not converge is no error; the report says so. The mesh of a part of

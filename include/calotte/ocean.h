@@ -61,7 +61,7 @@ DoubleVector land_fractions(const Voronoi& cells, const Raster& land);
 /// point.
 std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines);
 
-/// The rules by which cells without land are sea.
+/// The rules that decide which cells are sea, beginning with those that are no land.
 struct SeaOptions {
   std::vector<std::int32_t> opened = {}; ///< cells that are sea, even on land. Default: none.
   std::vector<std::int32_t> closed = {}; ///< cells that are land, unless opened. Default: none.

@@ -26,7 +26,8 @@ struct UncheckedSurface;
 ///     Surface::periodic({lx, ly})                // the box [0, lx) x [0, ly)
 ///     Surface::periodic({lx, 0})                 // a channel along x
 ///
-/// A value that is cheap to copy. Copies share the data that are prepared for queries. Thread-safe.
+/// A value that is cheap to copy. Copies share the data that are prepared for queries. Any number
+/// of threads may call const functions.
 class Surface {
 public:
   /// Closed rings of corners, one a column: 3 rows on the sphere, 2 in the plane.
@@ -62,7 +63,8 @@ public:
   /// The periods of the plane in x and y; 0 in a direction without a period.
   const Eigen::Vector2d& period() const { return period_; }
   const Rings& rings() const; ///< none if it is not bounded
-  /// The area: steradians, or the square of the plane's unit; infinite for the whole plane.
+  /// The area: steradians, or the square of the plane's unit; infinite for a plane
+  /// without an end.
   double area() const;
   /// True if a point lies inside or on the boundary; in a periodic direction, if it lies in the
   /// half-open period. Exact. False for points that are not finite, and for the vector 0 on the

@@ -201,7 +201,8 @@ private:
 /// rules. Widths are positive. Lengths are in km on a sphere of radius earth_radius_km, or of that
 /// of on_sphere(); in a plane in its unit. Rules of the sphere and of a plane cannot be combined.
 /// Rules of a plane are numbers, rasters, and those by distance. A value that is cheap to copy.
-/// Copies share the data that are prepared for queries. Thread-safe.
+/// Copies share the data that are prepared for queries. Any number of threads may call const
+/// functions.
 ///
 ///     const Widths coast = Widths::by_distance(shapes, {{{0, 10}, {600, 60}}});
 ///     const Widths zones = Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 35}}});
@@ -224,8 +225,7 @@ public:
   /// A width by the distance from the nearest of some lines, along great circles; in a plane along
   /// straight lines, also over land.
   /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle, in a
-  /// plane
-  ///        x y 0; one point is a line, too. See read_shapes() and shores().
+  ///        plane x y 0; one point is a line, too. See read_shapes() and shores().
   /// \param profile of the distance, from 0 on.
   /// \param surface the sphere or a plane, whose boundary has no effect.
   /// \throws Error invalid_argument, naming line and point: opposite neighbours, a point that is no
@@ -282,8 +282,7 @@ public:
 
   /// The minimum of several at each point. Widths of the Earth adopt the sphere of the others.
   /// \throws Error invalid_argument for an empty list, and for widths of a sphere and of a plane,
-  /// or
-  ///         of two other spheres, here and below.
+  ///         or of two other spheres, here and below.
   static Widths minimum(const std::vector<Widths>& of);
   static Widths maximum(const std::vector<Widths>& of); ///< the greatest
   static Widths sum(const std::vector<Widths>& of);     ///< all together
@@ -379,8 +378,7 @@ WidthField width_field(const Widths& widths, const Surface& surface = {});
 ///        least width, within 0.05 to 1 degree; in a plane half of the least width, or what gives 4
 ///        million nodes.
 /// \throws Error invalid_argument for a step out of range, widths of another surface or whose
-/// ratios
-///         exceed 1e30, and naming a node of the surface where no rule gives a width.
+///         ratios exceed 1e30, and naming a node of the surface where no rule gives a width.
 Raster sampled(const Widths& widths, const Surface& surface = {}, double step = 0);
 
 } // namespace calotte

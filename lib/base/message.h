@@ -64,7 +64,7 @@ template <class... Values> struct Pattern {
   std::string_view text;
 };
 
-/// The pattern with the texts instead of its {}.
+/// The pattern with each {} replaced by a text.
 inline std::string filled(std::string_view pattern, std::initializer_list<std::string> texts) {
   std::string all;
   for (const std::string& text : texts) {
@@ -75,7 +75,7 @@ inline std::string filled(std::string_view pattern, std::initializer_list<std::s
   return all.append(pattern);
 }
 
-/// The pattern with the values instead of its {}: message("site {} is {} km away", i, distance).
+/// The pattern with each {} replaced by a value: message("site {} is {} km away", i, distance).
 template <class... Values>
 std::string message(std::type_identity_t<Pattern<Values...>> pattern, const Values&... values) {
   return filled(pattern.text, {shown(values)...});

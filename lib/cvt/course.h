@@ -15,8 +15,9 @@ namespace calotte::cvt_detail::course {
 
 // ---- Rounds of insertion and contraction
 
-/// The maximum number of rounds of a level. Coarser levels have more rounds, as these are cheap
-/// there. 5 makes no difference by default.
+/// The maximum number of rounds of a coarser level, if the last level does not have more. Coarser
+/// levels have more rounds than the last one, as these are cheap there. It limits large numbers of
+/// rounds only: 5 makes no difference by default.
 inline constexpr int most_rounds = 14;
 /// Splits and collapses in a round, each as a share of the dislocations that the density demands.
 /// Half of them: energy +0.01 to +0.08%, and cells are sheared, so that the stable step of gravity
@@ -79,6 +80,7 @@ inline constexpr int early_glides = 3;
 /// times the penalty, and no raise, make no difference on these grids. It matters for fixed
 /// generators and boundaries.
 inline constexpr double penalty = 60, raise = 4;
+/// The maximum number of times that the penalty is raised.
 inline constexpr int most_raised = 2;
 /// The maximum number of evaluations of a polish, and the number without a clear improvement of the
 /// worst shape that ends it. No difference on these grids, either.

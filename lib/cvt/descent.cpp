@@ -238,14 +238,15 @@ double Descent::greatest_motion(Part part) const {
   return std::sqrt(most);
 }
 
-/// Line search. It accepts a trial with a lower energy that is not far beyond the minimum. Where
+/// Line search. It accepts a trial that has a lower energy and is not far beyond the minimum. Where
 /// the energies differ by less than quadrature resolves, it accepts a trial whose slopes satisfy
 /// conditions like the approximate Wolfe conditions of Hager and Zhang (2005). The secant of the
 /// slopes gives the next trial. Returns false if no trial is accepted.
 ///
 /// The first trial is the full step. After a search that has shortened the step it is shorter for a
-/// while: where edges flip in steep widths, every full step would be rejected. The trial is then
-/// the accepted one.
+/// while: where edges flip in steep widths, every full step would be rejected.
+///
+/// If it returns true, the trial is the accepted one.
 bool Descent::search(const Line& line) {
   constexpr double growth = 1.4;
   Memory& memory = state_.memory;

@@ -16,9 +16,9 @@ namespace calotte::cvt_detail {
 /// dislocation along its row of cells. A descent leaves some dislocations just before a glide: a
 /// Voronoi edge is then short, or an angle nearly right. The four generators around that edge are
 /// moved so that it flips. The generators within some rings then relax to the centroids of their
-/// cells; all others stay. As a rule the energy is lower afterwards, and the cells around the
-/// dislocation are as regular as others. A penalty for short edges would instead keep generators
-/// away from their centroids.
+/// cells; all others stay. The stress that brought the dislocation there carries it on: as a rule
+/// the energy is lower afterwards, and the cells around are as regular as others. A penalty for
+/// short edges would instead keep generators away from their centroids.
 ///
 /// The result has the same bits for any number of threads and regions.
 ///

@@ -32,8 +32,8 @@ struct Fan {
   std::int32_t triangles, last; ///< their number, and the highest
 };
 
-/// Unmarks the triangles that are not in the largest fan of each of their sites. Returns their
-/// number.
+/// At each site with several fans, unmarks the triangles of all but the largest. Returns the number
+/// of triangles that it unmarked.
 std::int64_t drop_small_fans(const Triangles& triangles, std::int64_t points,
                              std::vector<std::uint8_t>& keep) {
   const Triangles neighbours = neighbours_of(triangles, points);

@@ -143,7 +143,7 @@ void begin_polish(State& state) {
   state.polish = {.penalty = course::penalty * last.energy / static_cast<double>(last.cells),
                   .demanded_spacing = estimate_spacing(last),
                   .descended = state.report.converged ||
-                               state.cursor.glides > 0}; // a raise needs convergence
+                               state.cursor.glides > 0}; // glides begin after convergence
 }
 
 void begin_raised(State& state) {

@@ -59,8 +59,9 @@ ShapeLimits limits_of_glide(const State& state);
 
 /// The current descent.
 /// \param density of the run, here and below as surface_density() gives it.
-/// \param quadrature of the run, see Execution. All descents but the last end with its first rule.
-///        Where the density is nearly linear between generators, the rule at the sites replaces it.
+/// \param quadrature of the run, see Execution. In a run with insertion, the descents before
+///        Kind::converge end with its first rule. Where the density is nearly linear between
+///        generators, the rule at the sites replaces it.
 DescentOptions make_descent_options(const State& state, const Recipe& recipe,
                                     const Density& density, const Quadrature& quadrature);
 

@@ -127,7 +127,8 @@ DisjointSurroundings choose_disjoint(const Connectivity& mesh,
 /// A task in a subdomain; false if its result must be discarded, as without a valid mesh.
 template <Space S> using LocalTask = std::function<bool(std::size_t index, Subdomain<S>& part)>;
 
-/// Runs a task in the subdomain of each of some surroundings and writes the results back.
+/// Runs a task in the subdomain of each of some surroundings, which have no common triangle, and
+/// writes the results back.
 /// \param mesh of the tessellation, which stays Delaunay.
 /// \param task called with the index of the surroundings in the list.
 /// \param changed triangles that have changed are added.

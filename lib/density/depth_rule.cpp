@@ -17,7 +17,7 @@ namespace {
 constexpr double gravity = 9.80665, rotation = 7.292e-5; // of the Earth, m/s^2 and 1/s
 constexpr double radians = std::numbers::pi / 180;
 
-/// The barotropic Rossby radius, metres; near the equator the equatorial radius (Gill,
+/// The barotropic Rossby radius, metres; near the equator the equatorial one (Gill,
 /// Atmosphere-Ocean Dynamics, 1982, Sect. 11.5).
 /// \param radius of the sphere, metres.
 double rossby_radius(double depth, double latitude, double radius) {

@@ -87,7 +87,7 @@ void join_pole(Eigen::Index j, Raster& raster) {
   raster.values.col(j).setConstant(raster.values.col(j).minCoeff());
 }
 
-/// By how much finer than the raster the rows are: some million points in all.
+/// How many times as fine as the raster the rows are: some millions of points in all.
 int parts_for(const Raster& raster) {
   constexpr double most = 4e6;
   return std::clamp(static_cast<int>(std::sqrt(most / static_cast<double>(raster.values.size()))),

@@ -137,7 +137,7 @@ public:
 private:
   /// Degrees.
   static double latitude_of(const Vec3& p) {
-    // Of two forms, this one keeps its digits.
+    // Uses the one of two forms that keeps its digits.
     const double ring = std::sqrt(p.x * p.x + p.y * p.y);
     return degrees * (ring > std::abs(p.z)
                           ? base_detail::arc_sine(p.z)
@@ -433,7 +433,7 @@ std::shared_ptr<const OfRadius<Of>> of_sides(const std::vector<Points3>& lines,
 template <class Body>
 void for_each_block_of(const PointsRef& points, RuleSpace space, const Body& body) {
   const bool plane = space == RuleSpace::plane, sphere = space == RuleSpace::sphere;
-  Points3 x = Points3::Zero(3, points.cols()); // of a number no point matters
+  Points3 x = Points3::Zero(3, points.cols()); // for a number, points have no effect
   if (plane)
     x = base_detail::with_z(base_detail::plane_points_of(points));
   if (sphere)

@@ -160,8 +160,8 @@ public:
 
 private:
   /// The shift of the copy of b nearest to a, in whole periods; 0 if there is no period. Of two
-  /// that are equally near, it is the copy across from b: b's own copy half a period away is not
-  /// chosen, and the shift of the copy of a nearest to b is the opposite.
+  /// that are equally near, it is the one on the other side of a: b's own copy half a period away
+  /// is not chosen, and the shift of the copy of a nearest to b is the opposite.
   static double periods_between(double a, double b, double period) {
     return period > 0 ? -std::round((b - a) / period) : 0;
   }
@@ -210,7 +210,8 @@ concept Space = requires(const S space, const Vec3& x, const typename S::Positio
   { space.compare_distances(p, p, p) } -> std::same_as<int>;     ///< -1: the second is nearer to p
   /// Whether the angle at the first is acute beyond rounding.
   { space.is_clearly_acute(p, p, p) } -> std::same_as<bool>;
-  /// Whether a side is shorter than half of each period beyond rounding: no other copy is as near.
+  /// Whether a side is shorter than half of each period by more than rounding: no other copy is as
+  /// near.
   { space.is_short(p, p) } -> std::same_as<bool>;
   { space.wrapped(x) } -> std::same_as<Vec3>;           ///< the copy in the half-open period
   { space.offset(x, x) } -> std::same_as<Vec3>;         ///< the chord to the nearest copy

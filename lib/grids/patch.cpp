@@ -282,7 +282,7 @@ WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Ma
   if (!finer)
     return wanted;
 
-  // Beside sites that stay, the width differs from their width by at most what the gradient allows.
+  // Beside sites that stay, widths are at least theirs minus what the gradient allows.
   Sources wide;
   for (std::int32_t i = 0; i < own.size(); ++i)
     if (has(wanted.stays, i) && own[i] > 0)

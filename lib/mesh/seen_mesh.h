@@ -37,8 +37,8 @@ public:
   Vec3 coordinates(const Position& p) const { return space_.coordinates(p); }
   Vec3 vertex(std::int32_t site) const { return coordinates(position(at(site))); }
   /// Whether the boundary is convex: a walk that leaves the mesh does not return, and sites at the
-  /// boundary have all of their neighbours. A mesh of a part of the sphere has no convex boundary,
-  /// as the far side is beside it.
+  /// boundary have all of their neighbours. On the sphere only a closed mesh has this property:
+  /// beside a part of the sphere is its far side.
   bool has_convex_boundary() const {
     if constexpr (S::on_sphere)
       return mesh_.closed();

@@ -51,7 +51,8 @@ std::int32_t midpoint(const Coarse& mesh, const Array<std::int32_t>& first, std:
   return static_cast<std::int32_t>(mesh.points + edge);
 }
 
-/// The part beyond the edge across from vertex i that is at the edge's start, or at its end.
+/// The part beyond the edge across from vertex i that is at the edge's start, or at its end, as
+/// seen from triangle t.
 std::int32_t part_beyond(const Coarse& mesh, std::int64_t t, int i, bool start) {
   const std::int32_t beyond = mesh.neighbours(i, t);
   if (beyond < 0)

@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  static constexpr int attempts = 4; ///< number of attempts for balanced parts
+  static constexpr int attempts = 4; ///< maximum number, until parts are balanced
 
   bool is_connected() const { return components_.first.size() == 1; }
   const Graph& connected() const { return is_connected() ? graph_ : joined_; }

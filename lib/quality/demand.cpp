@@ -60,7 +60,7 @@ void add_triangle(const std::array<Vec3, 3>& corner, std::span<const QuadratureR
   }
 }
 
-/// A triangle is divided into the square of this number. The error is 1e-6 for rasters of 1 degree,
+/// The parts into which a side of a triangle is divided. The error is 1e-6 for rasters of 1 degree,
 /// whose kinks cause larger errors than a bump of 8:1.
 int divisions_for(std::int64_t triangles) {
   constexpr double enough = 200000, most = 128;

@@ -78,8 +78,8 @@ private:
     return angle < 0 ? angle + 2 * std::numbers::pi : angle;
   }
 
-  /// The neighbour of a cell that is equally near to a point and is the next one clockwise towards
-  /// another cell.
+  /// The neighbour to which a path around a point goes from a cell, clockwise: the cell `last`, or
+  /// else of the neighbours that are equally near to the point the one next to `last`; -1 for none.
   std::int32_t towards(const Vec2& point, std::int32_t cell, std::int32_t last) const {
     const double all = turn(point, cell, last);
     std::int32_t farthest = -1;

@@ -52,7 +52,7 @@ void smooth(const Voronoi& voronoi, DoubleVector& logarithms) {
   }
 }
 
-/// Quantiles: \returns the values at given shares of the sorted numbers; none without numbers.
+/// The quantiles of some numbers at given shares. NaN does not count; 0 without numbers.
 template <std::size_t n>
 std::array<double, n> quantiles(const DoubleVector& of, const std::array<double, n>& shares) {
   std::vector<double> known;

@@ -53,7 +53,7 @@ template <class Value, class... Values>
   fail_at(path, line, message(pattern, value, values...));
 }
 
-/// The same for a file that its writer has not completed.
+/// fail_file() for a file that its writer has not completed.
 template <class... Values>
 [[noreturn]] void fail_damaged(const std::string& name,
                                std::type_identity_t<Pattern<Values...>> pattern,

@@ -134,8 +134,8 @@ MeshField carried(const Sources& sources, const MeshField& field, Interpolation 
   return out;
 }
 
-/// Transfers the density. Its -1/4th power, which is proportional to cell widths, is interpolated
-/// linearly; it is larger where cells have become finer.
+/// Transfers the density, which becomes larger where cells have become finer. Its -1/4th power,
+/// which is proportional to cell widths, is interpolated linearly.
 DoubleVector carried_density(const Sources& sources, const DoubleVector& density) {
   constexpr double least = 1e-150;
   const Eigen::Index cells = sources.changed.new_of_old.size();

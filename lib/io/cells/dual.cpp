@@ -25,8 +25,8 @@ struct AtCorner {
   std::int32_t polygon, before, after;
 };
 
-/// Sorts the polygons around a corner in counter-clockwise order, from the lowest on: the next one
-/// is across the side to the corner before. The input is in ascending order.
+/// Sorts the polygons around a corner from the lowest on, in the direction in which polygons run:
+/// the next one is across the side to the corner before. The input is in ascending order.
 /// \returns whether the polygons surround the corner.
 bool turn_around(std::array<AtCorner, 3>& around) {
   if (around[1].after != around[0].before)

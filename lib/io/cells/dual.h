@@ -15,7 +15,7 @@ namespace calotte::io_detail {
 
 /// The triangles of cells, one at each corner that three cells surround.
 struct Dual {
-  Triangles triangles;  ///< one at each corner, oriented like the polygons
+  Triangles triangles;  ///< one at each corner, oriented like the polygons, from the lowest on
   Triangles neighbours; ///< across from each polygon; -1 if the corner there is on the boundary
   Ids corner;           ///< corner of each triangle, ascending
   /// The first corner that other than three polygons surround; -1 if there is none.

@@ -94,8 +94,8 @@ DoubleVector grouped_by_item(const std::vector<double>& values,
   return out;
 }
 
-/// The attributes of a field that are kept with it: not those that other members or the format
-/// express.
+/// The text attributes of a field that say what its numbers are. Attributes that say where the
+/// numbers are or how they are stored, and those with a member of their own, are left out.
 std::vector<std::array<std::string, 2>> read_own_attributes(const NetcdfReader& file,
                                                             const std::string& name) {
   static const std::set<std::string> others{

@@ -37,8 +37,8 @@ void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add
       add(position(polygons, ids[0]), position(polygons, ids[k]), position(polygons, ids[k + 1]));
 }
 
-/// Computes the area of the sphere as the argument of the product of complex numbers: one for half
-/// the area of each triangle of the fan.
+/// The area of a polygon on the sphere: twice the argument of a product of complex numbers, whose
+/// arguments are the half areas of the fan's triangles.
 double spherical_area(const Polygons& polygons, std::int64_t polygon) {
   double x = 1, y = 0;
   for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -58,7 +58,8 @@ struct FormatRow {
   /// Whether a NetCDF file is of the format. The first row that says so reads it.
   bool (*is)(const NetcdfReader&) = nullptr;
   RawMesh (*read)(const InputFile&) = nullptr;
-  bool reads_planes = false; ///< whether points with z = 0 make a planar mesh
+  /// Whether points with z = 0 make a planar mesh. Otherwise the reader itself says what is planar.
+  bool reads_planes = false;
   /// Reads the sites only. Null if nothing else in the file is slow to read or may be invalid.
   Points3 (*read_sites)(const InputFile&) = nullptr;
 };

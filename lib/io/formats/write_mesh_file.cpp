@@ -109,8 +109,7 @@ struct WrittenShape {
   std::optional<Mesh> inner = {}; ///< triangles of the clipped cells of a plane
 };
 
-/// Cells are written as they are. Formats of triangles get triangles of cells only if the file has
-/// no triangles.
+/// Cells are written as they are, but to formats of triangles only if the file has no triangles.
 WrittenShape shape_for(const MeshFile& file, Format format) {
   if (!file.polygons || info_of(format).cells)
     return {.polygons = file.polygons && !file.is_clipped()};

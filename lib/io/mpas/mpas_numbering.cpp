@@ -93,7 +93,7 @@ void number_vertices(const Finder& finder, Deviations& deviations, MpasNumbering
 
 // ---- Edges
 
-/// Finds the edges of the file; edges that occur twice count twice.
+/// Finds the edges of the file. Does not check that an edge occurs once.
 Differences find_edges(const Finder& finder, const Deviations& deviations,
                        Array<std::int32_t>& edge) {
   return deviations.visit_rows<std::int32_t>(

@@ -15,8 +15,8 @@
 /// Rows of variables on their way to a NetCDF file.
 namespace calotte::io_detail {
 
-/// Calls body(begin, end) for consecutive ranges of the rows [first, last), each of about
-/// range_bytes.
+/// Calls body(begin, end) for consecutive ranges of the rows [first, last). A range has about
+/// range_bytes, and at least one row.
 template <class Body>
 void for_each_rows(std::int64_t first, std::int64_t last, std::int64_t row_bytes,
                    std::int64_t range_bytes, const Body& body) {

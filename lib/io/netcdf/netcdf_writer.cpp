@@ -136,7 +136,7 @@ int NetcdfWriter::State::format() const {
   return cdf5 || io_detail::needs_cdf5(bytes) ? NC_64BIT_DATA : NC_64BIT_OFFSET;
 }
 
-/// Writes up to the last record: the library counts records by what is written.
+/// Writes a value of the last record: the library counts records by what is written.
 void NetcdfWriter::State::extend_to_last_record(int id) const {
   for (std::size_t v = 0; v < variables.size(); ++v) {
     const Variable& variable = variables[v];
