@@ -90,6 +90,7 @@ def main(folder, interpreter, output):
         run("strip", "--strip-unneeded", module)
         run("patchelf", "--force-rpath", "--set-rpath", "$ORIGIN/lib", module)
         rename_libraries(libraries, [*libraries, package / "bin/calotte", module])
+        bundle.check_symbols(package)
 
         info = root / f"calotte-{version}.dist-info"
         shutil.copytree(folder / "share/doc/calotte/licences", info / "licenses")
