@@ -24,7 +24,7 @@ namespace calotte {
 /// centre.
 struct DensityBump {
   Eigen::Vector3d centre{0, 0, 1};  ///< a direction, finite and non-zero
-  double beta = 0.5235987755982988; ///< radius in radians, > 0, at most pi; default pi / 6
+  double beta = 0.5235987755982988; ///< radius in radians, > 0; default pi / 6
   double alpha = 0.2;               ///< width of the transition in radians, > 0
   double gamma = 1.0 / 4096;        ///< density far from the centre; 0 < gamma < 1
   /// Ratio of the axes of an elliptic bump: distances along the long axis are divided by it; >= 1.

@@ -23,8 +23,6 @@ Profile make_profile(const DensityBump& bump, std::size_t b) {
   Profile profile = profile_without_centre(bump, b);
   require_of_bump(b, bump.centre.allFinite() && !bump.centre.isZero(0),
                   "the centre has no direction; give a finite, non-zero vector");
-  require_of_bump(b, bump.beta <= std::numbers::pi,
-                  "beta is larger than pi, half a circle; give radians");
   profile.centre = normalised({bump.centre[0], bump.centre[1], bump.centre[2]});
   if (bump.stretch > 1) {
     const Vec3 given{bump.major[0], bump.major[1], bump.major[2]};

@@ -29,10 +29,11 @@ def check_versions(project):
             "CMakeLists.txt": f"project(calotte VERSION {version} ",
             "CITATION.cff": f"\nversion: {version}\n",
             ".github/CHANGELOG.md": f"\n## {version} (",
-            "README.md": f"tar xf calotte-{version}-linux-x86_64.tar.gz",
-            "tools/manual/install.md": f"tar xf calotte-{version}-linux-x86_64.tar.gz",
             "tools/manual/index.md": f"\ncalotte {version}\n"}.items():
         require(text in (project / file).read_text(), f"{file} does not name version {version}")
+    for file in ["README.md", "tools/manual/install.md"]:
+        named = set(re.findall(r"calotte[-:_](\d+\.\d+\.\d+)", (project / file).read_text()))
+        require(named == {version}, f"{file} names packages of version {sorted(named)}")
 
 
 def check_presets(project):

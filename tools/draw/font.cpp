@@ -5,7 +5,7 @@
 
 #include <cairo-ft.h>
 
-#include <new>
+#include <stdexcept>
 
 namespace calotte::tools {
 
@@ -18,7 +18,8 @@ cairo_font_face_t* load_face() {
   if (FT_Init_FreeType(&library) != 0 ||
       FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(font_bytes.data()),
                          static_cast<FT_Long>(font_bytes.size()), 0, &face) != 0)
-    throw std::bad_alloc(); // the bytes are a font
+    throw std::runtime_error(
+        "the command's font cannot be read; build it with another CALOTTE_FONT");
   return cairo_ft_font_face_create_for_ft_face(face, 0);
 }
 

@@ -7,7 +7,7 @@
 Copies into FOLDER/lib the shared libraries that its programs and libraries need, but for those of
 the C and C++ compilers, and lets each find the others relative to itself. Puts into
 FOLDER/share/doc/calotte/licences what holds for these libraries and for the Debian packages that
-the file PACKAGES lists. Fails where anything needs newer systems than README.md promises.
+the file PACKAGES lists. Fails where anything needs a newer system than README.md promises.
 """
 import pathlib
 import re
@@ -67,15 +67,19 @@ def relocate(folder):
 
 
 def check_symbols(folder):
+    """Fails where a binary needs what neither the folder nor an older system has."""
+    inside = {path.name for path in folder.rglob("*.so*")}
     too_new = []
     for binary in binaries(folder):
+        too_new += [f"{binary.name}: the library {name}" for name in needed(binary)
+                    if not SYSTEM.fullmatch(name) and name not in inside]
         for library, version, symbol in re.findall(r"\(?([A-Z]+)_([0-9.]+)\)?\s+(\S+)$",
                                                    run("objdump", "-T", str(binary)), re.M):
             numbers = tuple(map(int, version.split(".")))
             if library in NEWEST and numbers > NEWEST[library]:
                 too_new.append(f"{binary.name}: {symbol} of {library}_{version}")
     if too_new:
-        sys.exit("bundle: too new for other systems:\n" + "\n".join(too_new))
+        sys.exit("bundle: not on other systems:\n" + "\n".join(too_new))
 
 
 def copy_licences(folder, packages):
@@ -83,6 +87,10 @@ def copy_licences(folder, packages):
     licences.mkdir(parents=True, exist_ok=True)
     for package in packages:
         shutil.copy(f"/usr/share/doc/{package}/copyright", licences / package)
+    sources = run("dpkg-query", "--show", "--showformat=${source:Package} ${source:Version}\n",
+                  *packages)
+    (licences / "SOURCES").write_text("The sources of what is inside are these packages of Debian 12.\n\n"
+                                      + "".join(sorted(set(sources.splitlines(True)))))
     for text in pathlib.Path("/usr/share/common-licenses").iterdir():  # to which these refer
         shutil.copy(text, licences)
 

@@ -25,11 +25,12 @@ void arc4random_buf(void* buffer, std::size_t size) {
 
 /// Cairo draws with it. glibc 2.35 has a version of its own.
 double hypot(double x, double y) {
-  const double larger = std::fmax(std::fabs(x), std::fabs(y));
-  if (!(larger > 0) || std::isinf(larger))
-    return larger;
-  const double a = x / larger, b = y / larger;
-  return larger * std::sqrt(a * a + b * b);
+  const double a = std::fabs(x), b = std::fabs(y), larger = a > b ? a : b;
+  if (std::isinf(a) || std::isinf(b))
+    return HUGE_VAL;
+  if (a == 0 && b == 0)
+    return 0;
+  return larger * std::sqrt((a / larger) * (a / larger) + (b / larger) * (b / larger));
 }
 }
 

@@ -26,8 +26,8 @@ def run(*command):
                           stdout=subprocess.PIPE).stdout
 
 
-def compiled_part(folder, interpreter, build):
-    """Builds the module with the folder's library. Returns its path."""
+def compiled_part(folder, interpreter, suffix, build):
+    """Builds the module, whose name ends with the suffix, with the folder's library. Returns its path."""
     archives = PROJECT / "build/portable/libraries/lib"
     modules = build / "module"
     shutil.rmtree(modules, ignore_errors=True)
@@ -43,7 +43,7 @@ def compiled_part(folder, interpreter, build):
     run("cmake", "-G", "Ninja", "-S", PROJECT / "tools/python", "-B", build, "-Wno-dev",
         *(f"-D{name}={value}" for name, value in settings.items()))
     subprocess.run(["cmake", "--build", build], check=True)
-    return next(modules.glob("_calotte.*.so"))
+    return modules / f"_calotte{suffix}"
 
 
 def rename_libraries(libraries, binaries):
@@ -70,15 +70,17 @@ def metadata(version):
 
 
 def main(folder, interpreter, output):
-    tag = run(interpreter, "-c", "import sys; print('cp%d%d' % sys.version_info[:2])").strip()
+    interpreter, tag, suffix = run(
+        interpreter, "-c", "import sys, sysconfig; print(sys.executable, 'cp%d%d' % "
+        "sys.version_info[:2], sysconfig.get_config_var('EXT_SUFFIX'), sep='\\n')").splitlines()
     version, machine = re.fullmatch(r"calotte-(.*)-linux-(\w+)", folder.name).groups()
-    module = compiled_part(folder.resolve(), interpreter, output.resolve() / f"python-{tag}")
+    module = compiled_part(folder.resolve(), interpreter, suffix, output.resolve() / f"python-{tag}")
     with tempfile.TemporaryDirectory() as temporary:
         root = pathlib.Path(temporary)
         package = root / "calotte"
         shutil.copytree(PROJECT / "tools/python/calotte", package,
                         ignore=shutil.ignore_patterns("__pycache__", "*.so"))
-        shutil.copy(HERE / "command.py", package / "_command.py")
+        shutil.copy(HERE / "calotte_command.py", root)
         for name in ("bin", "libexec"):
             shutil.copytree(folder / name, package / name)
         (package / "lib").mkdir()
@@ -97,7 +99,7 @@ def main(folder, interpreter, output):
         shutil.copy(PROJECT / "LICENSE", info / "licenses")
         (info / "METADATA").write_text(metadata(version))
         (info / "entry_points.txt").write_text("[console_scripts]\n"
-                                               "calotte = calotte._command:main\n")
+                                               "calotte = calotte_command:main\n")
         (info / "WHEEL").write_text("Wheel-Version: 1.0\nGenerator: calotte\n"
                                     "Root-Is-Purelib: false\n"
                                     f"Tag: {tag}-{tag}-manylinux_2_34_{machine}\n")
