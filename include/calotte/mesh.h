@@ -70,7 +70,7 @@ struct Polygons {
 ///
 ///     const IdLists around = neighbours(mesh);
 ///     for (const std::int32_t site : around[17])
-///       std::cout << site << "\n";
+///       distances.push_back((mesh.points.col(site) - mesh.points.col(17)).norm());
 ///
 /// \param mesh as delaunay() or read_mesh() returns it; it may be open, and need not be Delaunay.
 /// \throws Error invalid_argument for ids out of range, and neighbours that do not match the

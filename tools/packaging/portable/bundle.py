@@ -21,7 +21,7 @@ NEWEST = {"GLIBC": (2, 34), "GLIBCXX": (3, 4, 29), "CXXABI": (1, 3, 13), "GCC": 
 
 
 def run(*command):
-    return subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE).stdout
+    return subprocess.run([str(word) for word in command], check=True, text=True, stdout=subprocess.PIPE).stdout
 
 
 def binaries(folder):
@@ -32,7 +32,7 @@ def binaries(folder):
 
 
 def needed(binary):
-    return re.findall(r"NEEDED\s+(\S+)", run("objdump", "-p", str(binary)))
+    return re.findall(r"NEEDED\s+(\S+)", run("objdump", "-p", binary))
 
 
 def find(name):
@@ -61,9 +61,9 @@ def relocate(folder):
     """Lets each binary find the libraries of the folder before those of LD_LIBRARY_PATH."""
     for binary in binaries(folder):
         binary.chmod(0o755)
-        run("strip", "--strip-unneeded", str(binary))
+        run("strip", "--strip-unneeded", binary)
         to_lib = pathlib.Path("$ORIGIN") / ("" if binary.parent.name == "lib" else "../lib")
-        run("patchelf", "--force-rpath", "--set-rpath", str(to_lib), str(binary))
+        run("patchelf", "--force-rpath", "--set-rpath", to_lib, binary)
 
 
 def check_symbols(folder):
@@ -74,7 +74,7 @@ def check_symbols(folder):
         too_new += [f"{binary.name}: the library {name}" for name in needed(binary)
                     if not SYSTEM.fullmatch(name) and name not in inside]
         for library, version, symbol in re.findall(r"\(?([A-Z]+)_([0-9.]+)\)?\s+(\S+)$",
-                                                   run("objdump", "-T", str(binary)), re.M):
+                                                   run("objdump", "-T", binary), re.M):
             numbers = tuple(map(int, version.split(".")))
             if library in NEWEST and numbers > NEWEST[library]:
                 too_new.append(f"{binary.name}: {symbol} of {library}_{version}")
@@ -97,7 +97,7 @@ def copy_licences(folder, packages):
 
 def package_of(path):
     """The Debian package of a file, without its architecture."""
-    return run("dpkg", "--search", str(path)).split(":")[0]
+    return run("dpkg", "--search", path).split(":")[0]
 
 
 def main(folder, packages):

@@ -16,14 +16,10 @@ import sys
 import tempfile
 
 import bundle
+from bundle import run
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[2]
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], check=True, text=True,
-                          stdout=subprocess.PIPE).stdout
 
 
 def compiled_part(folder, interpreter, suffix, build):
