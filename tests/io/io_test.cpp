@@ -12,6 +12,7 @@
 #include <calotte/write.h>
 
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 
 #include <bit>
 #include <cmath>
@@ -234,6 +235,74 @@ TEST_CASE("a file longer than the reader's buffer loses nothing, whatever ends i
     CHECK(same);
   }
   CHECK(points_of("#" + std::string(5'000'000, ' ') + "\n1 2 3").cols() == 1);
+}
+
+TEST_CASE("a long text gives the same points, lines and errors, whatever its parts") {
+  Random random(7);
+  for (const std::string ending : {"\n", "\r\n", "\r"}) {
+    std::string text = "lon lat depth" + ending;
+    std::vector<double> longitudes;
+    std::vector<std::int64_t> lines;
+    for (std::int64_t line = 2; line < 60'000;
+         ++line) { // of 3 MB: many parts, more than one window
+      if (random.integer(0, 20) == 0)
+        text += random.integer(0, 1) == 0 ? "# an island" : "  ";
+      else {
+        longitudes.push_back(random.integer(-180, 180));
+        lines.push_back(line);
+        text += std::to_string(longitudes.back()) + " 47.25 " +
+                std::string(static_cast<std::size_t>(random.integer(1, 60)), '7');
+      }
+      text += ending;
+    }
+    const auto read = [&](const std::string& of) {
+      std::istringstream in(of);
+      return calotte::read_point_lines(in, "text", Columns::lonlat);
+    };
+    for (const int threads : {1, 3}) {
+      tbb::task_arena arena(threads);
+      const calotte::PointLines all = arena.execute([&] { return read(text); });
+      CHECK(all.lines == lines);
+      REQUIRE(all.points.cols() == std::ssize(longitudes));
+      std::int64_t same = 0;
+      for (std::int64_t i = 0; i < all.points.cols(); ++i)
+        same += all.points.col(i) ==
+                points_of(std::to_string(longitudes[static_cast<std::size_t>(i)]) + " 47.25\n",
+                          Columns::lonlat)
+                    .col(0);
+      CHECK(same == all.points.cols());
+    }
+    for (int trial = 0; trial < 20; ++trial) { // two bad lines: the first is told
+      std::string bad = text;
+      const auto at = static_cast<std::size_t>(
+                     random.integer(0, static_cast<int>(lines.size()) - 1)),
+                 from = bad.find(" 47.25 ");
+      REQUIRE(from != std::string::npos);
+      std::size_t place = from;
+      for (std::size_t k = 0; k < at; ++k)
+        place = bad.find(" 47.25 ", place + 1);
+      bad.replace(place, 7, " 97.25 ");
+      if (const std::size_t next = bad.find(" 47.25 ", place); next != std::string::npos)
+        bad.replace(next, 7, " 4?.25 ");
+      CHECK(message_of([&] {
+              read(bad);
+            }).find("text line " + std::to_string(lines[at]) + ": latitude 97.25 is outside") == 0);
+    }
+  }
+}
+
+TEST_CASE("a column that counts the lines is told in a long text, too") {
+  constexpr int count = 50'000;
+  const auto text = [&](int broken) {
+    std::string rows;
+    for (int i = 0; i < count; ++i)
+      rows += std::to_string(i == broken ? 5 : 100 + i) + " 0.5 0.25 a further column\n";
+    return rows;
+  };
+  CHECK(has(message_of([&] { points_of(text(-1), Columns::xy); }),
+            "points line 50000: the first column counts the lines"));
+  for (const int broken : {1, 2, 9'000, 30'001, count - 1})
+    CHECK(points_of(text(broken), Columns::xy).cols() == count);
 }
 
 TEST_CASE("invalid points give an error of one line with the line of the file and the remedy") {

@@ -37,6 +37,14 @@ const char* skip_plus(const char* p, const char* end) {
   return end - p > 1 && p[0] == '+' && p[1] != '+' && p[1] != '-' ? p + 1 : p;
 }
 
+/// The length of the whole lines at the start of a text that goes on.
+std::size_t whole_lines(std::string_view text) {
+  for (std::size_t i = text.size(); i-- > 0;)
+    if (text[i] == '\n' || (text[i] == '\r' && i + 1 < text.size())) // or else a CRLF, perhaps
+      return i + 1;
+  return 0;
+}
+
 template <class T> Columned parse(std::string_view line, int count, T* values) {
   const char* const end = line.data() + line.size();
   const char* p = skip_blanks(line.data(), end);
@@ -65,48 +73,82 @@ template <class T> Columned parse(std::string_view line, int count, T* values) {
 } // namespace
 
 LineReader::LineReader(std::istream& in, std::string name)
-    : in_(in), name_(std::move(name)), buffer_(buffer_bytes), at_first_(bytes_left(in)) {
+    : in_(&in), name_(std::move(name)), buffer_(buffer_bytes), at_first_(bytes_left(in)),
+      text_(buffer_.data()) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   while (end_ < mark.size() && refill()) {
   }
-  if (std::string_view(buffer_.data(), end_).starts_with(mark))
+  if (std::string_view(text_, end_).starts_with(mark))
     begin_ = mark.size();
 }
 
-bool LineReader::next(std::string_view& line) {
-  std::size_t scanned = begin_;
-  while (true) {
-    if (after_cr_ && begin_ != end_) {
-      if (buffer_[begin_] == '\n')
-        ++begin_, ++scanned;
-      after_cr_ = false;
-    }
-    while (scanned != end_ && buffer_[scanned] != '\n' && buffer_[scanned] != '\r')
-      ++scanned;
-    if (scanned != end_)
-      break;
-    const std::size_t length = scanned - begin_;
-    if (!refill()) {
-      if (length == 0)
-        return false;
-      line = {buffer_.data() + begin_, length};
-      begin_ = end_;
-      ++number_;
-      return true;
-    }
-    scanned = begin_ + length;
+LineReader::LineReader(std::string_view part, std::string name, std::int64_t before)
+    : name_(std::move(name)), text_(part.data()), end_(part.size()), number_(before) {}
+
+/// Skips the LF of a CRLF whose CR was the last byte that was read.
+void LineReader::skip_lf() {
+  if (after_cr_ && begin_ != end_) {
+    begin_ += text_[begin_] == '\n' ? 1 : 0;
+    after_cr_ = false;
   }
-  line = {buffer_.data() + begin_, scanned - begin_};
-  after_cr_ = buffer_[scanned] == '\r';
-  begin_ = scanned + 1;
+}
+
+bool LineReader::next(std::string_view& line) {
+  std::size_t length = 0;
+  while (true) {
+    skip_lf();
+    line = {text_ + begin_, end_ - begin_};
+    while (length != line.size() && line[length] != '\n' && line[length] != '\r')
+      ++length;
+    if (length != line.size())
+      break;
+    if (!refill()) {
+      begin_ = end_;
+      number_ += line.empty() ? 0 : 1;
+      return !line.empty();
+    }
+  }
+  after_cr_ = line[length] == '\r';
+  line = line.substr(0, length);
+  begin_ += length + 1;
   ++number_;
   return true;
+}
+
+std::string_view LineReader::take_lines(std::size_t size) {
+  if (buffer_.size() < size) {
+    buffer_.resize(size);
+    text_ = buffer_.data();
+  }
+  std::size_t whole = 0;
+  for (bool more = in_ != nullptr; whole == 0; size *= 2) {
+    while (more && end_ - begin_ < size)
+      more = refill();
+    skip_lf();
+    const std::string_view unread(text_ + begin_, end_ - begin_);
+    whole = more ? whole_lines(unread) : unread.size();
+    if (unread.empty())
+      break;
+  }
+  begin_ += whole;
+  return {text_ + begin_ - whole, whole};
+}
+
+std::int64_t LineReader::estimate_all(std::int64_t items) const {
+  constexpr double spare = 1.1; // lines differ in length
+  const std::size_t taken = read_ - (end_ - begin_);
+  if (at_first_ == 0 || taken == 0)
+    return 2 * items;
+  const double all = static_cast<double>(at_first_) / static_cast<double>(taken);
+  return static_cast<std::int64_t>(std::max(1., spare * all) * static_cast<double>(items));
 }
 
 /// Moves the unread bytes to the front of the buffer and reads more; false at the end of the
 /// stream.
 bool LineReader::refill() {
   constexpr std::size_t most_line = std::size_t{1} << 24;
+  if (in_ == nullptr)
+    return false;
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
@@ -114,10 +156,12 @@ bool LineReader::refill() {
     ++number_;
     fail("a line longer than 16 MiB; give a text file");
   }
-  if (end_ == buffer_.size())
+  if (end_ == buffer_.size()) {
     buffer_.resize(2 * buffer_.size());
-  read_some(in_, buffer_.data() + end_, static_cast<std::int64_t>(buffer_.size() - end_), name_);
-  const auto count = static_cast<std::size_t>(in_.gcount());
+    text_ = buffer_.data();
+  }
+  read_some(*in_, buffer_.data() + end_, static_cast<std::int64_t>(buffer_.size() - end_), name_);
+  const auto count = static_cast<std::size_t>(in_->gcount());
   end_ += count, read_ += count;
   if (count == 0)
     require_whole(read_, at_first_, name_);
@@ -131,6 +175,18 @@ bool LineReader::next_content(std::string_view& line) {
       return true;
   }
   return false;
+}
+
+std::vector<std::string_view> parts_of(std::string_view text, std::size_t size) {
+  std::vector<std::string_view> parts;
+  while (!text.empty()) {
+    std::size_t part = 0;
+    for (std::size_t most = size; part == 0; most *= 2)
+      part = most < text.size() ? whole_lines(text.substr(0, most)) : text.size();
+    parts.push_back(text.substr(0, part));
+    text.remove_prefix(part);
+  }
+  return parts;
 }
 
 void LineReader::fail(const std::string& problem) const { fail_at(name_, number_, problem); }

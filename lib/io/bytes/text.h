@@ -24,12 +24,27 @@ public:
   /// \param name stands for the stream in messages.
   LineReader(std::istream& in, std::string name);
 
+  /// The lines of a part of a text, such as parts_of() gives; it must outlive the reader.
+  /// \param before the number of lines before the part.
+  LineReader(std::string_view part, std::string name, std::int64_t before = 0);
+
   /// Reads the next line, without its ending; valid until the next call. False after the last one.
   /// \throws Error file.
   bool next(std::string_view& line);
 
   /// As next(), without comments; skips lines without other content.
   bool next_content(std::string_view& line);
+
+  /// Takes the next lines out of the stream for other readers: whole ones of about `size` bytes, at
+  /// least one; empty after the last line. Valid until the next call. count_lines() counts them.
+  /// \pre size <= 8 MiB
+  /// \throws Error file.
+  std::string_view take_lines(std::size_t size);
+  void count_lines(std::int64_t lines) { number_ += lines; }
+
+  /// Estimates how many items the stream has, rather too many, if the lines so far have `items`:
+  /// twice as many where its size is unknown.
+  std::int64_t estimate_all(std::int64_t items) const;
 
   std::int64_t number() const { return number_; } ///< 1-based, of the line that `next` returned
   const std::string& name() const { return name_; }
@@ -43,16 +58,21 @@ public:
   }
 
 private:
+  void skip_lf();
   bool refill();
 
-  std::istream& in_;
+  std::istream* in_ = nullptr; ///< null for a part of a text
   std::string name_;
-  std::vector<char> buffer_;
+  std::vector<char> buffer_;            ///< of the stream
   std::size_t at_first_ = 0, read_ = 0; ///< bytes that the stream had, and those read
-  std::size_t begin_ = 0, end_ = 0;     ///< the unread part of the buffer
+  const char* text_;                    ///< the buffer, or the part
+  std::size_t begin_ = 0, end_ = 0;     ///< what is unread of it
   std::int64_t number_ = 0;
   bool after_cr_ = false; ///< a following LF belongs to the same line ending
 };
+
+/// Cuts a text of whole lines into parts of whole lines, of about `size` bytes.
+std::vector<std::string_view> parts_of(std::string_view text, std::size_t size);
 
 /// The result of parsing the numbers at the start of a line.
 enum class Outcome {

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/shapes/row_parser.h"
+#include "base/lonlat.h"
+#include "io/bytes/file_error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string>
+
+namespace calotte::io_detail {
+
+/// The format of a line. Texts are parts of messages.
+struct LineFormat {
+  int columns;
+  // for messages
+  const char* expected; ///< what to write in a line
+  const char* headers;  ///< headers that name further columns
+  const char* perhaps;  ///< a remedy where a column is missing, or empty
+  const char* use;      ///< what a non-finite number cannot give
+  void (*require)(const LineReader&, const double*);
+  void (*append)(std::vector<double>&, const double*);
+};
+
+namespace {
+
+void require_direction(const LineReader& reader, const double* values) {
+  if (values[0] == 0 && values[1] == 0 && values[2] == 0)
+    reader.fail("the zero vector has no direction; remove the point or correct it");
+}
+
+void require_latitude(const LineReader& reader, const double* values) {
+  if (std::abs(values[1]) > 90)
+    reader.fail(
+        "latitude {} is outside -90 to 90; write longitude first, then latitude, in degrees",
+        values[1]);
+}
+
+void append_lonlat(std::vector<double>& coordinates, const double* values) {
+  const base_detail::Vec3 p = base_detail::from_lonlat(values[0], values[1]);
+  coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+}
+
+void append_xyz(std::vector<double>& coordinates, const double* values) {
+  coordinates.insert(coordinates.end(), values, values + 3);
+}
+
+void append_xy(std::vector<double>& coordinates, const double* values) {
+  coordinates.insert(coordinates.end(), {values[0], values[1], 0});
+}
+
+const LineFormat& line_format(Columns columns) {
+  static constexpr LineFormat lonlat{2,
+                                     "write longitude and latitude in degrees on each line",
+                                     "id lon lat, or lon lat value",
+                                     "",
+                                     "direction",
+                                     require_latitude,
+                                     append_lonlat};
+  static constexpr LineFormat xy{2,
+                                 "write two numbers x y on each line",
+                                 "id x y, or x y value",
+                                 "",
+                                 "place",
+                                 [](const LineReader&, const double*) {},
+                                 append_xy};
+  static constexpr LineFormat xyz{
+      3,
+      "write three numbers x y z on each line",
+      "id x y z, or x y z value",
+      ", or read them as longitude and latitude, or as places in a plane",
+      "direction",
+      require_direction,
+      append_xyz};
+  return columns == Columns::lonlat ? lonlat : columns == Columns::xy ? xy : xyz;
+}
+
+[[noreturn]] void refuse_line(const LineReader& reader, const Columned& read,
+                              const LineFormat& format) {
+  if (read.outcome != Outcome::too_few)
+    reader.fail("{}; {}", describe(read), format.expected);
+  reader.fail("{} {} only; {}{}", read.columns, read.columns == 1 ? "column" : "columns",
+              format.expected, read.columns == 2 ? format.perhaps : "");
+}
+
+void require_finite(const LineReader& reader, const double* values, const LineFormat& format) {
+  for (int i = 0; i < format.columns; ++i)
+    if (!std::isfinite(values[i]))
+      reader.fail("{} gives no {}; remove the point or correct it",
+                  std::isnan(values[i]) ? "NaN" : "an infinite number", format.use);
+}
+
+// ---- Headers
+
+/// Splits a line into columns at a separator or at blanks. Removes quotes and blanks around them.
+std::vector<std::string_view> split_columns(std::string_view line, char separator) {
+  constexpr std::string_view around = " \t\r\"'";
+  std::vector<std::string_view> columns;
+  const auto is_end = [&](char c) {
+    return separator == ' ' ? c == ' ' || c == '\t' : c == separator;
+  };
+  for (std::size_t begin = 0; begin <= line.size();) {
+    std::size_t end = begin;
+    while (end < line.size() && !is_end(line[end]))
+      ++end;
+    std::string_view column = line.substr(begin, end - begin);
+    const std::size_t first = column.find_first_not_of(around),
+                      last = column.find_last_not_of(around);
+    column = first == std::string_view::npos ? std::string_view()
+                                             : column.substr(first, last - first + 1);
+    if (separator != ' ' || !column.empty())
+      columns.push_back(column);
+    begin = end + 1;
+  }
+  return columns;
+}
+
+/// Finds the separator of a line. It may differ from that of the header.
+char find_separator(std::string_view line) {
+  const std::size_t at = line.find_first_of(",;|\t");
+  return at == std::string_view::npos ? ' ' : line[at];
+}
+
+/// The letters at the start of a name such as "Latitude [deg]", in lower case.
+std::string leading_letters(std::string_view name) {
+  std::string letters;
+  for (const char c : name)
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else
+      break;
+  return letters;
+}
+
+/// Parses a header. Returns none unless it names the coordinates.
+std::optional<PointHeader> parse_header(std::string_view line, Columns columns) {
+  using Names = std::vector<std::string_view>;
+  const std::vector<Names> wanted =
+      columns == Columns::lonlat
+          ? std::vector<Names>{{"lon", "longitude", "long", "lng", "x"}, {"lat", "latitude", "y"}}
+      : columns == Columns::xy ? std::vector<Names>{{"x"}, {"y"}}
+                               : std::vector<Names>{{"x"}, {"y"}, {"z"}};
+  PointHeader header;
+  header.separator = find_separator(line);
+  std::vector<std::string> names;
+  for (const std::string_view name : split_columns(line, header.separator))
+    names.push_back(leading_letters(name));
+  header.names = names.size();
+  header.wanted = wanted.size();
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    auto found = names.end();
+    for (const std::string_view known : wanted[k]) // the first that there is
+      if (found == names.end())
+        found = std::find(names.begin(), names.end(), known);
+    if (found == names.end())
+      return std::nullopt;
+    header.column[k] = static_cast<std::size_t>(found - names.begin());
+    header.first = header.first && header.column[k] == k;
+  }
+  return header;
+}
+
+Columned parse_named(std::string_view line, const PointHeader& header, int count, double* values) {
+  const std::vector<std::string_view> columns = split_columns(line, header.separator);
+  for (int k = 0; k < count; ++k) {
+    const std::size_t at = header.column[static_cast<std::size_t>(k)];
+    if (at >= columns.size())
+      return {Outcome::too_few, static_cast<int>(columns.size()), {}};
+    const Columned read = parse_columns(columns[at], 1, values + k);
+    if (read.outcome != Outcome::ok)
+      return {read.outcome == Outcome::too_few ? Outcome::no_number : read.outcome, k, columns[at]};
+  }
+  return {};
+}
+
+int commas_in(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  int found = 0;
+  for (std::size_t k = 1; k + 1 < text.size(); ++k)
+    found += text[k] == ',' && is_digit(text[k - 1]) && is_digit(text[k + 1]) ? 1 : 0;
+  return found;
+}
+
+/// Whether a line has decimal commas: in its columns, if semicolons separate them, or in each word,
+/// if there are as many words as columns.
+bool has_decimal_commas(std::string_view line, int count,
+                        const std::optional<PointHeader>& header) {
+  if (line.find(',') == std::string_view::npos)
+    return false;
+  if (line.find(';') != std::string_view::npos) {
+    const std::vector<std::string_view> columns = split_columns(line, ';');
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      if (const std::size_t at = header ? header->column[k] : k;
+          at < columns.size() && commas_in(columns[at]) > 0)
+        return true;
+    return false;
+  }
+  const std::vector<std::string_view> words = split_columns(line, ' ');
+  return std::ssize(words) >= count &&
+         std::ranges::all_of(words, [](std::string_view word) { return commas_in(word) == 1; });
+}
+
+} // namespace
+
+FirstColumn::FirstColumn(Columns columns, const LineFormat& format)
+    : lonlat_(columns == Columns::lonlat), format_(&format) {}
+
+void FirstColumn::take(const LineReader& reader, std::string_view line, double value, bool named) {
+  if (lines_ == 0 && !follows_) {
+    double values[4];
+    further_ = parse_columns(line, format_->columns + 1, values).outcome != Outcome::too_few;
+    counts_ = further_ && !named && value == std::floor(value);
+  }
+  if (lines_++ == 0)
+    begin_ = value;
+  counts_ = counts_ && value == begin_ + static_cast<double>(lines_ - 1);
+  if (further_ && !named && lonlat_ && std::abs(value) > 360)
+    refuse(reader, "the first column is no longitude");
+}
+
+void FirstColumn::require_no_count(const LineReader& reader, std::int64_t fewest) const {
+  if (counts_ && lines_ >= fewest)
+    refuse(reader, "the first column counts the lines");
+}
+
+FirstColumn FirstColumn::following() const {
+  FirstColumn next = *this;
+  next.follows_ = true;
+  next.lines_ = 0;
+  return next;
+}
+
+void FirstColumn::append(const FirstColumn& next) {
+  if (next.lines_ == 0)
+    return;
+  counts_ = counts_ && next.counts_ && next.begin_ == begin_ + static_cast<double>(lines_);
+  lines_ += next.lines_;
+}
+
+void FirstColumn::refuse(const LineReader& reader, const char* what) const {
+  reader.fail("{}, and there are more than {}; write a header that names the columns, such as {}",
+              what, format_->columns, format_->headers);
+}
+
+RowParser::RowParser(Columns columns)
+    : columns_(columns), format_(&line_format(columns)), first_(columns, *format_) {}
+
+void RowParser::parse(const LineReader& reader, std::string_view line, PointRows& rows) {
+  const std::size_t comment = line.find('#');
+  const std::string_view content = line.substr(0, comment);
+  if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
+    if (comment != std::string_view::npos && !has_points_ && !header_)
+      names_ = parse_header(line.substr(comment + 1), columns_);
+    return;
+  }
+  if (!has_points_ && names_ && !header_)
+    accept_comment(content);
+  double values[3];
+  if (has_decimal_commas(content, format_->columns, names_))
+    reader.fail("commas separate columns; write numbers with decimal points");
+  const Columned read = names_ && !names_->first
+                            ? parse_named(content, *names_, format_->columns, values)
+                            : parse_columns(content, format_->columns, values);
+  if (read.outcome == Outcome::ok)
+    add(reader, content, values, rows);
+  else
+    take_header(reader, content, read);
+}
+
+/// Keeps the names of a comment before the first line if they fit it: the comment may be a
+/// sentence.
+void RowParser::accept_comment(std::string_view line) {
+  const bool is_list = names_->separator != ' ' || names_->names == names_->wanted;
+  names_->separator = find_separator(line);
+  if (!is_list || split_columns(line, names_->separator).size() != names_->names)
+    names_.reset();
+}
+
+void RowParser::take_header(const LineReader& reader, std::string_view line, const Columned& read) {
+  if (header_ || has_points_ || has_number(line))
+    refuse_line(reader, read, *format_);
+  header_ = true;
+  if (const std::optional<PointHeader> found = parse_header(line, columns_))
+    names_ = found;
+}
+
+void RowParser::add(const LineReader& reader, std::string_view line, const double* values,
+                    PointRows& rows) {
+  require_finite(reader, values, *format_);
+  first_.take(reader, line, values[0], names_.has_value());
+  if (columns_ == Columns::lonlat && std::abs(values[1]) > 90) // an id may precede the longitude
+    first_.require_no_count(reader, 1);
+  format_->require(reader, values);
+  format_->append(rows.coordinates, values);
+  rows.lines.push_back(reader.number());
+  has_points_ = true;
+}
+
+RowParser RowParser::following() const {
+  RowParser next = *this;
+  next.first_ = first_.following();
+  return next;
+}
+
+bool RowParser::finish(const LineReader& reader) const {
+  if (!has_points_)
+    fail_file(reader.name(), "no points in {} {}; {}", reader.number(),
+              reader.number() == 1 ? "line" : "lines", format_->expected);
+  first_.require_no_count(reader, 3);
+  return first_.has_further() && !names_;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/bytes/text.h"
+
+#include <calotte/read.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace calotte::io_detail {
+
+/// Points of consecutive lines.
+struct PointRows {
+  std::vector<double> coordinates; ///< three of each point
+  std::vector<std::int64_t> lines; ///< number of each point's line
+
+  void clear() { coordinates.clear(), lines.clear(); } ///< keeps the memory
+};
+
+struct LineFormat;
+
+/// The columns of the coordinates according to the first line of a file.
+struct PointHeader {
+  char separator = ' ';
+  std::array<std::size_t, 3> column{};
+  bool first = true;                 ///< whether they are the first columns, in order
+  std::size_t names = 0, wanted = 0; ///< number of all columns, and of the coordinates
+};
+
+/// Checks whether the first column is not a coordinate, in files with more columns than are read:
+/// it then numbers the lines, or is not a longitude.
+class FirstColumn {
+public:
+  FirstColumn(Columns columns, const LineFormat& format);
+
+  bool has_further() const { return further_; }
+
+  /// \param named whether a header names the columns.
+  void take(const LineReader& reader, std::string_view line, double value, bool named);
+  /// \param fewest number of lines that are sufficient evidence.
+  void require_no_count(const LineReader& reader, std::int64_t fewest) const;
+
+  /// As RowParser's.
+  FirstColumn following() const;
+  void append(const FirstColumn& next);
+
+private:
+  [[noreturn]] void refuse(const LineReader& reader, const char* what) const;
+
+  bool lonlat_;
+  const LineFormat* format_;
+  bool follows_ = false; ///< whether lines before are known
+  std::int64_t lines_ = 0;
+  double begin_ = 0;
+  bool further_ = false, counts_ = false;
+};
+
+/// Parses the lines of a text of points, in the syntax of read_points().
+class RowParser {
+public:
+  explicit RowParser(Columns columns);
+
+  /// Whether there was a point. No header follows then, and each line can be parsed alone.
+  bool has_points() const { return has_points_; }
+
+  /// Adds the point of a line, if it has one.
+  /// \throws Error parse.
+  void parse(const LineReader& reader, std::string_view line, PointRows& rows);
+
+  /// A parser for lines that follow, whose lines before are parsed at the same time.
+  /// \pre has_points()
+  RowParser following() const;
+  /// Adds what the parser of the next lines has found.
+  void append(const RowParser& next) { first_.append(next.first_); }
+
+  /// \param reader at the end of the text.
+  /// \returns whether there are more columns than are read, which no header names.
+  /// \throws Error parse.
+  bool finish(const LineReader& reader) const;
+
+private:
+  void accept_comment(std::string_view line);
+  void take_header(const LineReader& reader, std::string_view line, const Columned& read);
+  void add(const LineReader& reader, std::string_view line, const double* values, PointRows& rows);
+
+  Columns columns_;
+  const LineFormat* format_;
+  bool header_ = false, has_points_ = false;
+  std::optional<PointHeader> names_;
+  FirstColumn first_;
+};
+
+} // namespace calotte::io_detail
