@@ -47,10 +47,10 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotteConfig.cmake ${CMAKE_CURRENT_BI
 # A shared library brings its own libraries along; an archive leaves them to `pkg-config --static`.
 if(calotte_type STREQUAL "STATIC_LIBRARY")
   set(calotte_pc_requires_private "tbb, gmp")
-  set(calotte_pc_libs_private "-ltbbmalloc") # oneTBB has no .pc file for its allocator
+  set(calotte_pc_libs_private "")
   if(CALOTTE_BUILD_IO)
     string(APPEND calotte_pc_requires_private ", netcdf, expat, zlib, tomlplusplus")
-    string(APPEND calotte_pc_libs_private " -lmetis") # nor does METIS
+    string(APPEND calotte_pc_libs_private " -lmetis") # METIS has no .pc file
     install(FILES cmake/FindMETIS.cmake DESTINATION ${calotte_package_dir} COMPONENT development)
   endif()
 endif()

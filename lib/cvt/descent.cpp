@@ -142,8 +142,6 @@ void Descent::make_laplacian() {
   forget();
   laplacian_.reset(); // its memory serves the next
   laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
-  if (state_.points.cols() >= short_memory_from)
-    base_detail::empty_pools(); // of the parts that the rows were made from
 }
 
 /// Multiplies by the initial inverse Hessian. This is the inverse of the graph Laplacian, whose

@@ -271,7 +271,6 @@ Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& repor
   monitor.begin("unite", united, 2 * std::ssize(reports->regions));
   Mesh mesh = make_mesh(std::move(sites), std::move(*reports), &monitor);
   mesh.surface = Chart::surface();
-  empty_pools_of_many(mesh.points.cols());
   report.seconds.unite = restart_clock(mark);
   return mesh;
 }
@@ -280,7 +279,6 @@ template <class Chart>
 Mesh triangulate(Sites&& sites, const Decomposition& decomposition, DelaunayReport& report,
                  Monitor& monitor) {
   Clock::time_point mark = Clock::now();
-  empty_pools_of_many(sites.size());
   monitor.begin("regions", divided, 1);
   Regions regions = divide(sites, decomposition);
   report.seconds.regions = restart_clock(mark);

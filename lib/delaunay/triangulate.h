@@ -6,8 +6,6 @@
 #include "base/vector_loops.h"
 #include "delaunay/room.h"
 
-// CGAL's containers allocate through this macro: from the pools, for the same reason as Array.
-#define CGAL_ALLOCATOR(T) calotte::base_detail::PoolAllocator<T>
 #include <CGAL/Triangulation_data_structure_2.h>
 
 #include <array>

@@ -44,7 +44,7 @@ template <class Chart> struct Found {
   std::int32_t lowest; ///< the corner with its lowest site
   std::int32_t member; ///< that site's, if the region owns it; else the number of members
 };
-template <class Chart> using AllFound = std::vector<Found<Chart>, PoolAllocator<Found<Chart>>>;
+template <class Chart> using AllFound = std::vector<Found<Chart>>;
 
 /// The certified finite faces, in the order of memory.
 template <class Chart> AllFound<Chart> find_faces(Triangulation<Chart>& triangulation) {
@@ -70,13 +70,12 @@ std::vector<std::int64_t> number_faces(const AllFound<Chart>& found, std::int64_
     std::int32_t second; ///< site of the face
     std::int32_t found;  ///< its index
   };
-  auto lists =
-      lists_by_key<std::vector<Listed, PoolAllocator<Listed>>>(members + 1, [&](const auto& put) {
-        for (std::int32_t f = 0; f < std::ssize(found); ++f) {
-          const auto& [face, lowest, member] = found[static_cast<std::size_t>(f)];
-          put(member, {face->vertex(next_vertex(lowest))->point.site, f});
-        }
-      });
+  auto lists = lists_by_key<std::vector<Listed>>(members + 1, [&](const auto& put) {
+    for (std::int32_t f = 0; f < std::ssize(found); ++f) {
+      const auto& [face, lowest, member] = found[static_cast<std::size_t>(f)];
+      put(member, {face->vertex(next_vertex(lowest))->point.site, f});
+    }
+  });
   for (std::int64_t m = 0; m < members; ++m)
     std::sort(lists[m].begin(), lists[m].end(),
               [](const Listed& a, const Listed& b) { return a.second < b.second; });
@@ -258,7 +257,6 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
         index[static_cast<std::size_t>(k)][seam.triangle] =
             tables[static_cast<std::size_t>(seam.home)].count(seam);
   });
-  empty_pools_of_many(triangles_of.size()); // the reports' sites are needed no more
   make_room(mesh.neighbours, 3, count);
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];

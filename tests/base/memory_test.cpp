@@ -29,23 +29,6 @@ bool holds(const Array<std::int32_t>& array, std::int32_t value) {
 
 constexpr std::size_t megabyte = 1 << 20;
 
-struct Block {
-  unsigned char* begin;
-  std::size_t bytes;
-};
-
-/// A block whose bytes all have a value.
-Block filled_block(std::size_t bytes, unsigned char value) {
-  const Block block{static_cast<unsigned char*>(pool_allocate(bytes)), bytes};
-  std::fill_n(block.begin, bytes, value);
-  return block;
-}
-
-bool holds(const Block& block, unsigned char value) {
-  return std::all_of(block.begin, block.begin + block.bytes,
-                     [&](unsigned char byte) { return byte == value; });
-}
-
 } // namespace
 
 #ifdef __linux__
@@ -75,41 +58,4 @@ TEST_CASE("an array that was moved from is empty") {
   CHECK(from.size() == 0);
   from = {};
   CHECK(holds(to, 5));
-}
-
-TEST_CASE("blocks of the pools do not overlap") {
-  std::vector<Block> blocks;
-  std::size_t bytes = 1;
-  for (std::size_t total = 0; total < 200 * megabyte; total += bytes) {
-    bytes = bytes * 5 / 3 % (7 * megabyte) + 1;
-    blocks.push_back(filled_block(bytes, static_cast<unsigned char>(blocks.size())));
-  }
-  for (std::size_t k = 0; k < blocks.size(); k += 2)
-    pool_free(blocks[k].begin);
-  for (std::size_t k = 0; k < blocks.size(); k += 2)
-    blocks[k] = filled_block(blocks[k].bytes / 2 + 1, static_cast<unsigned char>(k));
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    CHECK(holds(blocks[k], static_cast<unsigned char>(k)));
-    pool_free(blocks[k].begin);
-  }
-  pool_free(nullptr);
-}
-
-TEST_CASE("one thread frees what another allocated") {
-  constexpr std::int64_t count = 4000;
-  std::vector<Block> blocks(count);
-  for (int round = 0; round < 3; ++round) {
-    for_each_task(count, [&](std::int64_t k) {
-      blocks[static_cast<std::size_t>(k)] =
-          filled_block(static_cast<std::size_t>(k % 97) * 1000 + 1, static_cast<unsigned char>(k));
-    });
-    std::int64_t wrong = 0;
-    for (std::int64_t k = 0; k < count; ++k)
-      wrong += !holds(blocks[static_cast<std::size_t>(k)], static_cast<unsigned char>(k));
-    CHECK(wrong == 0);
-    for_each_task(count, [&](std::int64_t k) {
-      pool_free(blocks[static_cast<std::size_t>(count - 1 - k)].begin);
-    });
-  }
-  empty_pools();
 }

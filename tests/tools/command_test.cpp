@@ -239,7 +239,8 @@ TEST_CASE("the report has the documented content") {
   const std::string report = contents(bench.folder() / "report.json");
   for (const char* key :
        {"sites", "regions", "threads", "overlap", "seconds", "triangulate", "unite", "total",
-        "read", "write", "duplicates", "seam_triangles", "exact_predicates", "sites_per_region"})
+        "read", "write", "memory", "peak_bytes", "page_faults", "touched_bytes", "duplicates",
+        "seam_triangles", "exact_predicates", "sites_per_region"})
     CHECK(has(report, std::string("\"").append(key).append("\": ")));
   CHECK(has(report, "\"regions\": 12,"));
   CHECK(has(report, "\"threads\": 2,"));

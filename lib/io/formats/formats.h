@@ -15,6 +15,7 @@
 #include <calotte/write.h>
 
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,10 @@ namespace calotte::io_detail {
 
 // ---- Streams
 
-void put_triangle_lines(const Sink& sink, const Triangles& triangles); ///< i j k a line
+/// Writes i j k a line.
+/// \param id_of what stands for each site; empty: the site itself.
+void put_triangle_lines(const Sink& sink, const Triangles& triangles,
+                        std::span<const std::int32_t> id_of = {});
 void put_off(const Sink& sink, const Mesh& mesh);
 void put_off(const Sink& sink, const Polygons& polygons);
 void put_ply(const Sink& sink, const Mesh& mesh);

@@ -2,16 +2,18 @@
 #include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
 
-#include <numeric>
+#include <algorithm>
+#include <span>
+#include <vector>
 
 namespace calotte::io_detail {
 namespace {
 
-/// The lowest input column of each site; the site itself, if the mesh does not have the columns.
+/// The lowest input column of each site; empty if the mesh does not have the columns.
 std::vector<std::int32_t> input_of_site(const Mesh& mesh) {
-  std::vector<std::int32_t> inputs(static_cast<std::size_t>(mesh.points.cols()), -1);
-  if (mesh.site_of_input.empty())
-    std::iota(inputs.begin(), inputs.end(), 0);
+  std::vector<std::int32_t> inputs;
+  if (!mesh.site_of_input.empty())
+    inputs.resize(static_cast<std::size_t>(mesh.points.cols()), -1);
   for (std::size_t i = 0; i < mesh.site_of_input.size(); ++i) {
     std::int32_t& input = inputs[static_cast<std::size_t>(mesh.site_of_input[i])];
     if (input < 0)
@@ -22,24 +24,29 @@ std::vector<std::int32_t> input_of_site(const Mesh& mesh) {
 
 } // namespace
 
-void put_triangle_lines(const Sink& sink, const Triangles& triangles) {
+void put_triangle_lines(const Sink& sink, const Triangles& triangles,
+                        std::span<const std::int32_t> id_of) {
   Writer out(sink);
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
-    out.number(std::int64_t{triangles(0, t)})
-        .text(" ")
-        .number(std::int64_t{triangles(1, t)})
-        .text(" ")
-        .number(std::int64_t{triangles(2, t)})
-        .text("\n");
+  constexpr std::int64_t block = 1024; // ids are looked up many at a time, as most are not in cache
+  Triangles ids;
+  for (std::int64_t begin = 0; begin < triangles.cols(); begin += block) {
+    ids = triangles.middleCols(begin, std::min(block, triangles.cols() - begin));
+    if (!id_of.empty())
+      for (std::int32_t& id : ids.reshaped())
+        id = id_of[static_cast<std::size_t>(id)];
+    for (const auto& triangle : ids.colwise())
+      out.number(std::int64_t{triangle(0)})
+          .text(" ")
+          .number(std::int64_t{triangle(1)})
+          .text(" ")
+          .number(std::int64_t{triangle(2)})
+          .text("\n");
+  }
   out.flush();
 }
 
 void put_triangles_text(const Sink& sink, const Mesh& mesh) {
-  const std::vector<std::int32_t> inputs = input_of_site(mesh);
-  Triangles columns = mesh.triangles;
-  for (std::int32_t& id : columns.reshaped())
-    id = inputs[static_cast<std::size_t>(id)];
-  put_triangle_lines(sink, columns);
+  put_triangle_lines(sink, mesh.triangles, input_of_site(mesh));
 }
 
 Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points) {
