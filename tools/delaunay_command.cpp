@@ -9,6 +9,7 @@
 #include "options/files.h"
 #include "options/format_options.h"
 #include "options/point_file.h"
+#include "run/memory_use.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -60,15 +61,11 @@ Surface surface_of(const DelaunayRequest& request) {
 
 Triangulation triangulate(PointFile&& input, const DelaunayRequest& request,
                           const DelaunayOptions& options) {
-  Triangulation result;
   try {
-    with_threads(request.delaunay->threads, [&] {
-      result = calotte::triangulate(std::move(input.points), surface_of(request), options);
-    });
+    return calotte::triangulate(std::move(input.points), surface_of(request), options);
   } catch (const Error& error) {
     rethrow_with_line(error, input.name, input.lines);
   }
-  return result;
 }
 
 WriteOptions write_options(const DelaunayRequest& request, std::int64_t points) {
@@ -98,6 +95,7 @@ std::string to_json(const Triangulation& result, double read, double write) {
                      {"total", report.seconds.total},
                      {"read", read},
                      {"write", write}};
+  json["memory"] = memory_use();
   json["certified_by_cull"] = report.certified_by_cull;
   json["certified_by_query"] = report.certified_by_query;
   json["halo_insertions"] = report.halo_insertions;
@@ -178,7 +176,8 @@ std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptio
 
 void run(const DelaunayRequest& request) {
   require_request(request);
-  std::cout << triangulate_file(request, options_of(*request.delaunay));
+  with_threads(request.delaunay->threads,
+               [&] { std::cout << triangulate_file(request, options_of(*request.delaunay)); });
 }
 
 } // namespace

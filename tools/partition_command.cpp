@@ -8,6 +8,7 @@
 #include "options/format_options.h"
 #include "options/part_counts.h"
 #include "run/exit_code.h"
+#include "run/memory_use.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -147,6 +148,7 @@ std::string to_json(const PartitionRequest& request, const PartitionOutcome& out
     json["weights"] = request.weights;
   json["threads"] = outcome.threads;
   json["seconds"] = {{"read", outcome.read_seconds}, {"partition", outcome.seconds}};
+  json["memory"] = memory_use();
   for (const Row& row : outcome.rows)
     json["partitions"].push_back({{"parts", row.parts.parts},
                                   {"file", row.path},

@@ -12,6 +12,7 @@
 #include "options/region_option.h"
 #include "options/warning.h"
 #include "run/exit_code.h"
+#include "run/memory_use.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -182,6 +183,7 @@ std::string to_json(const ChangedMesh& changed, double read, double change, doub
                                {"evaluations", patch.report.iterations.size()},
                                {"seconds", patch.report.seconds}});
   json["seconds"] = {{"read", read}, {"change", change}, {"write", write}};
+  json["memory"] = memory_use();
   return json.dump(2) + "\n";
 }
 

@@ -2,6 +2,7 @@
 #include "run/cvt_report.h"
 
 #include "run/cvt_actions.h"
+#include "run/memory_use.h"
 #include "text/text.h"
 
 #include <calotte/version.h>
@@ -89,6 +90,7 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
   json["area"] = area;
   json["threads"] = threads;
   json["seconds"] = report.seconds;
+  json["memory"] = memory_use();
   json["actions"] = actions_of(report);
   json["iterations"] = array_of(report.iterations);
   json["regions"] = array_of(report.regions);
