@@ -8,9 +8,14 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <new>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -55,14 +60,33 @@ bool start_google_benchmark(char* program, std::vector<std::string> arguments) {
 
 /// Keeps freed memory for the next round, for the peers and the library alike. Otherwise the system
 /// reclaims large arrays at once; if the host of a virtual machine reclaims its free memory,
-/// faulting it in again took 3 s per GiB, more than a triangulation in it. The library itself
-/// returns the memory of more than 2^23 sites.
+/// faulting it in again took 3 s per GiB, more than a triangulation in it.
 void keep_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
   mallopt(M_ARENA_MAX, 1); // the two settings above do not affect the arenas of other threads
 #endif
+}
+
+/// Microseconds that the first touch of a small page costs here and now: on a virtual machine whose
+/// host takes free memory back some 10, else about a quarter of one.
+double cost_of_a_page_fault() {
+  constexpr std::size_t bytes = std::size_t{256} << 20;
+  void* const block =
+      mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (block == MAP_FAILED)
+    throw std::bad_alloc();
+#ifdef MADV_NOHUGEPAGE
+  madvise(block, bytes, MADV_NOHUGEPAGE);
+#endif
+  const Stopwatch watch;
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  for (std::size_t at = 0; at < bytes; at += page)
+    static_cast<volatile char*>(block)[at] = 1;
+  const Timed timed = watch.stop();
+  munmap(block, bytes);
+  return 1e6 * timed.seconds / timed.page_faults;
 }
 
 void run_row(benchmark::State& state, const Row& row) {
@@ -120,6 +144,7 @@ int run(int argc, char** argv, RoundOptions& options, const Program& program) {
   benchmark::AddCustomContext("compiler", __VERSION__);
   for (const auto& [name, version] : program.peers)
     benchmark::AddCustomContext("peer " + name, version);
+  benchmark::AddCustomContext("page fault, us", std::to_string(cost_of_a_page_fault()));
   keep_memory();
   register_rounds(options, program);
   Progress progress;
@@ -141,7 +166,15 @@ Sample sample_of(const Timed& timed) {
   Sample sample{timed.seconds, {}, {}};
   if (timed.cpu_seconds > 0)
     sample.counters["cpu"] = timed.cpu_seconds;
+  if (timed.page_faults > 0)
+    sample.counters["faults"] = timed.page_faults;
   return sample;
+}
+
+double page_faults() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_minflt);
 }
 
 std::string threads_row(int threads) {

@@ -16,18 +16,24 @@ namespace calotte::bench {
 struct Timed {
   double seconds = 0;     ///< wall-clock
   double cpu_seconds = 0; ///< of all threads in that time
+  double page_faults = 0; ///< pages of memory that they touched first
 };
+
+/// Pages of memory that this process has touched first so far.
+double page_faults();
 
 /// Measures from its construction.
 class Stopwatch {
 public:
   Timed stop() const {
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    return {seconds, static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC};
+    return {seconds, static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC,
+            page_faults() - faults_};
   }
 
 private:
   using Clock = std::chrono::steady_clock;
+  double faults_ = page_faults();
   std::clock_t cpu_start_ = std::clock();
   Clock::time_point start_ = Clock::now();
 };
@@ -44,7 +50,7 @@ struct Sample {
   std::map<std::string, std::vector<double>> lists;
 };
 
-/// With the counter cpu, of CPU seconds, where they are known.
+/// With the counters cpu, of CPU seconds, and faults, where they are known.
 Sample sample_of(const Timed& timed);
 
 /// A row of every round. A wrong result is an exception, and no sample.
