@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/vector_field.h"
 
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_loops.h"
@@ -116,7 +115,7 @@ Points3 expanded(const CompactField& field) { return field.scale * field.values.
 void prepare(CompactField& field, double scale, std::int64_t n) {
   field.scale = scale > 0 ? scale : 1;
   if (field.values.cols() != n)
-    make_room(field.values, 3, n);
+    field.values.resize(3, n);
 }
 
 void set_difference(const Points3& a, const Points3& b, CompactField& field, Part part) {
@@ -181,7 +180,7 @@ Points3 retract(const Points3& x, double step, const Points3& d) {
 
 void retract(const Points3& x, double step, const Points3& d, Points3& to) {
   if (to.cols() != x.cols())
-    make_room(to, 3, x.cols());
+    to.resize(3, x.cols());
   set_columns(to, [&](std::int64_t i) {
     const Vec3 moved = column(x, i) + step * column(d, i);
     return (1 / norm(moved)) * moved;

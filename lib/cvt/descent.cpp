@@ -2,7 +2,6 @@
 #include "cvt/descent.h"
 
 #include "base/clock.h"
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_field.h"
@@ -177,7 +176,7 @@ Descent::Line Descent::set_direction() {
   const std::size_t pairs = memory.steps.size();
   const std::int64_t n = state_.points.cols();
   if (direction_.cols() != n)
-    make_room(direction_, 3, n);
+    direction_.resize(3, n);
   std::vector<double> shares = inner_of_each(memory.steps, here_.gradient);
   for (std::size_t k = pairs; k-- > 0;) {
     for (std::size_t j = k + 1; j < pairs; ++j)

@@ -2,7 +2,6 @@
 #include "cvt/functional.h"
 
 #include "base/clock.h"
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_loops.h"
@@ -156,12 +155,11 @@ evaluate_sites(const Patch& patch, const Points3& points, const Array<Vec3>& x,
 }
 
 void make_room(Evaluation& out, Eigen::Index n, bool with_gradient) {
-  using base_detail::make_room;
   if (!with_gradient) {
     if (out.centroids.cols() != n)
-      make_room(out.centroids, 3, n);
+      out.centroids.resize(3, n);
   } else if (out.mass.size() != n) {
-    make_room(out.gradient, 3, n);
+    out.gradient.resize(3, n);
     out.mass = Array<double>(n);
   }
 }
@@ -288,7 +286,7 @@ template <Space S>
 void FunctionalOver<S>::set_centroids(const Points3& points, const Evaluation& at,
                                       Points3& to) const {
   if (to.cols() != points.cols())
-    base_detail::make_room(to, 3, points.cols());
+    to.resize(3, points.cols());
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       const Vec3& x = column(points, i);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/memory.h"
+#include "base/array.h"
 #include "cvt/cells.h"
 #include "cvt/functional.h"
 #include "cvt/positioned_mesh.h"

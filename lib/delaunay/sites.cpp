@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/sites.h"
 
-#include "base/matrix_memory.h"
 #include "base/message.h"
 #include "base/require.h"
 #include "curve/hilbert.h"
@@ -82,7 +81,7 @@ void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest, 
 template <class Input> Points3 copy_points(const Input& input) {
   const std::int64_t n = input.points.cols();
   Points3 points;
-  make_room(points, 3, n);
+  points.resize(3, n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       set_column(points, i, input.at(i));

@@ -2,7 +2,6 @@
 #include "delaunay/unite.h"
 
 #include "base/lists.h"
-#include "base/matrix_memory.h"
 #include "base/message.h"
 #include "base/parallel.h"
 #include "base/split_mix.h"
@@ -234,7 +233,7 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
 void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangles_of, Mesh& mesh,
            Monitor* monitor) {
   const std::int32_t count = exclusive_scan(std::span(triangles_of.begin(), triangles_of.end()));
-  make_room(mesh.triangles, 3, count);
+  mesh.triangles.resize(3, count);
   const std::int64_t regions = std::ssize(reports);
   std::vector<SeamTable> tables(reports.size());
   std::vector<Array<std::int32_t>> index(reports.size());
@@ -257,7 +256,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
         index[static_cast<std::size_t>(k)][seam.triangle] =
             tables[static_cast<std::size_t>(seam.home)].count(seam);
   });
-  make_room(mesh.neighbours, 3, count);
+  mesh.neighbours.resize(3, count);
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     tables[static_cast<std::size_t>(k)].require_agreement();

@@ -2,7 +2,6 @@
 #include <calotte/generators.h>
 
 #include "base/circle.h"
-#include "base/matrix_memory.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "base/split_mix.h"
@@ -144,7 +143,7 @@ Points3 random_points(std::int64_t n, const Surface& surface, const Density& den
 Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
   require_count(n, 1, "the number of points");
   Points3 points;
-  base_detail::make_room(points, 3, n);
+  points.resize(3, n);
   SplitMix random(seed);
   for (std::int64_t i = 0; i < n; ++i) {
     double u, v, s;

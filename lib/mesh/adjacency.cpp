@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/adjacency.h"
 
-#include "base/matrix_memory.h"
 #include "base/points.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
@@ -66,7 +65,7 @@ std::vector<std::int32_t> stands_for(const Compare& compare, const std::vector<b
 
 Triangles neighbours_of(const Triangles& triangles, std::int64_t points) {
   Triangles neighbours;
-  make_room(neighbours, 3, triangles.cols());
+  neighbours.resize(3, triangles.cols());
   const auto lower = [&](std::int64_t h) { return half_edge(triangles, h).lower; };
   const auto item = [&](std::int64_t h) { return half_edge(triangles, h); };
   const auto link = [&](std::int64_t, const std::vector<HalfEdge>& sorted) {

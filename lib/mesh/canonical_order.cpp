@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/canonical_order.h"
 
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/triangle.h"
 #include "mesh/by_vertex.h"
@@ -91,7 +90,7 @@ CanonicalOrder order_triangles(const Triangles& triangles, std::span<const std::
     order.first[t] = static_cast<std::int8_t>(first);
     return Moved{turned(ids, first), static_cast<std::int32_t>(t)};
   };
-  make_room(out, 3, count);
+  out.resize(3, count);
   for_each_vertex_block<std::int32_t, Moved>(
       count, sites, lowest, moved, [&](std::int32_t k, const std::vector<Moved>& sorted) {
         for (const Moved& triangle : sorted) {
@@ -106,7 +105,7 @@ CanonicalOrder order_triangles(const Triangles& triangles, std::span<const std::
 
 void order_neighbours(const Triangles& neighbours, const CanonicalOrder& order, Triangles& out) {
   constexpr std::int64_t ahead = 16;
-  make_room(out, 3, neighbours.cols());
+  out.resize(3, neighbours.cols());
   for_each_block(neighbours.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t) {
       if (t + ahead < end)

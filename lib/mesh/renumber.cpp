@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/renumber.h"
 
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
@@ -114,7 +113,7 @@ Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
   const Array<std::int32_t> rank = inverse(order);
   Mesh out;
   out.surface = mesh.surface;
-  make_room(out.points, 3, mesh.points.cols());
+  out.points.resize(3, mesh.points.cols());
   for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       out.points.col(i) = mesh.points.col(order[i]);

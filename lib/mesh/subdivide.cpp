@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/subdivide.h"
 
-#include "base/matrix_memory.h"
-#include "base/memory.h"
+#include "base/array.h"
 #include "base/parallel.h"
 #include "base/triangle.h"
 #include "mesh/edges.h"
@@ -82,8 +81,8 @@ Connectivity subdivided(const Triangles& triangles, const Triangles& neighbours,
   const Coarse mesh{triangles, neighbours, points};
   const Array<std::int32_t> first = first_edges(mesh);
   Connectivity out;
-  make_room(out.triangles, 3, 4 * mesh.size());
-  make_room(out.neighbours, 3, 4 * mesh.size());
+  out.triangles.resize(3, 4 * mesh.size());
+  out.neighbours.resize(3, 4 * mesh.size());
   for_each_block(mesh.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t)
       cut(mesh, first, t, out);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quality/eigenvalues.h"
 
-#include "base/memory.h"
+#include "base/array.h"
 #include "base/parallel.h"
 #include "base/solvers.h"
 #include "base/split_mix.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/memory.h"
+#include "base/array.h"
 #include "base/parallel.h"
 #include "base/triangle.h"
 #include "mesh/connectivity.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quality/truncation.h"
 
-#include "base/memory.h"
+#include "base/array.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "quality/error_norms.h"

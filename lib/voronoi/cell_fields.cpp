@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "voronoi/cell_fields.h"
 
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "density/hexagons.h"
@@ -59,11 +58,11 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density) {
   out.density = relative_density(voronoi, density);
   const bool uniform = out.density.size() == 0;
   if (uniform)
-    make_room(out.density, n, 1);
-  make_room(out.area, n, 1);
-  make_room(out.spacing, n, 1);
-  make_room(out.quality, n, 1);
-  make_room(out.degree, n, 1);
+    out.density.resize(n);
+  out.area.resize(n);
+  out.spacing.resize(n);
+  out.quality.resize(n);
+  out.degree.resize(n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       std::int32_t degree = 0;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "voronoi/connectivity.h"
 
+#include "base/array.h"
 #include "base/first_fault.h"
 #include "base/lists.h"
-#include "base/matrix_memory.h"
-#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/triangle.h"
 
@@ -61,7 +60,7 @@ Array<std::int32_t> some_triangles(const Faces& surface) {
 /// the rings.
 Rings count_rings(const Faces& surface, Voronoi& out) {
   Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites())};
-  make_room(out.edges_on_cell.begin, surface.sites() + 1, 1);
+  out.edges_on_cell.begin.resize(surface.sites() + 1);
   FirstFault lonely, unfit;
   for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
@@ -192,17 +191,17 @@ Rings find_rings(const Faces& surface, Voronoi& out) {
 void connect(const Faces& surface, const Rings& rings, Voronoi& out) {
   const std::int64_t corners = surface.triangle_ids.size(), edges = corners / 2;
   const Offsets& begins = out.edges_on_cell.begin;
-  make_room(out.edges_on_cell.items, corners, 1);
+  out.edges_on_cell.items.resize(corners);
   for (IdLists* const lists : {&out.vertices_on_cell, &out.cells_on_cell}) {
-    make_room(lists->begin, begins.size(), 1);
-    make_room(lists->items, corners, 1);
+    lists->begin.resize(begins.size());
+    lists->items.resize(corners);
     for_each_block(begins.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       std::copy(begins.data() + begin, begins.data() + end, lists->begin.data() + begin);
     });
   }
-  make_room(out.edges_on_vertex, 3, surface.triangles());
-  make_room(out.cells_on_edge, 2, edges);
-  make_room(out.vertices_on_edge, 2, edges);
+  out.edges_on_vertex.resize(3, surface.triangles());
+  out.cells_on_edge.resize(2, edges);
+  out.vertices_on_edge.resize(2, edges);
   set_cells_and_edges(surface, rings, out);
   set_edges_of_higher_cells(surface, out);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/array.h"
 #include "base/elementary.h"
-#include "base/memory.h"
 #include "base/points.h"
 #include "base/vec3.h"
 #include "voronoi/room.h"

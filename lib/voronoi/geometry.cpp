@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "voronoi/geometry.h"
 
+#include "base/array.h"
 #include "base/double_double.h"
-#include "base/matrix_memory.h"
-#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
@@ -225,7 +224,7 @@ Vec3* columns(Points3& points, std::int64_t first) {
 } // namespace
 
 void measure_areas(Voronoi& out) {
-  make_room(out.cell_area, out.cells.cols(), 1);
+  out.cell_area.resize(out.cells.cols());
   for_each_block(out.cells.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       double area = 0;
@@ -237,9 +236,9 @@ void measure_areas(Voronoi& out) {
 }
 
 Array<double> begin_measures(Voronoi& out) {
-  make_room(out.kites, 3, out.cells_on_vertex.cols());
-  make_room(out.dv, out.cells_on_edge.cols(), 1);
-  make_room(out.dc, out.cells_on_edge.cols(), 1);
+  out.kites.resize(3, out.cells_on_vertex.cols());
+  out.dv.resize(out.cells_on_edge.cols());
+  out.dc.resize(out.cells_on_edge.cols());
   if (!out.surface.is_sphere())
     return {};
   const Points3& cells = out.cells;
@@ -271,15 +270,15 @@ void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_
 void measure(Voronoi& out) {
   const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
   const Array<double> surplus = begin_measures(out);
-  make_room(out.vertices, 3, vertices);
-  make_room(out.vertex_area, vertices, 1);
+  out.vertices.resize(3, vertices);
+  out.vertex_area.resize(vertices);
   for_each_block(vertices, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     measure_vertices(surplus, begin, end, out, columns(out.vertices, begin));
     for (std::int64_t t = begin; t != end; ++t)
       out.vertex_area[t] = vertex_area(out, t);
   });
-  make_room(out.edges, 3, edges);
-  make_room(out.angle, edges, 1);
+  out.edges.resize(3, edges);
+  out.angle.resize(edges);
   for_each_block(edges, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     measure_edges(surplus, begin, end, out, columns(out.edges, begin), out.angle.data() + begin);
   });

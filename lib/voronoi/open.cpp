@@ -2,7 +2,6 @@
 #include "voronoi/open.h"
 
 #include "base/lists.h"
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
@@ -96,11 +95,11 @@ std::vector<Edge> join_sides(const Voronoi& of) {
 
 void set_edges(const std::vector<Edge>& edges, Voronoi& out) {
   const auto count = std::ssize(edges);
-  make_room(out.cells_on_edge, 2, count);
-  make_room(out.vertices_on_edge, 2, count);
+  out.cells_on_edge.resize(2, count);
+  out.vertices_on_edge.resize(2, count);
   out.edges_on_cell.begin = out.cells_on_cell.begin = out.vertices_on_cell.begin;
-  make_room(out.edges_on_cell.items, out.vertices_on_cell.items.size(), 1);
-  make_room(out.cells_on_cell.items, out.vertices_on_cell.items.size(), 1);
+  out.edges_on_cell.items.resize(out.vertices_on_cell.items.size());
+  out.cells_on_cell.items.resize(out.vertices_on_cell.items.size());
   for (std::int32_t e = 0; e < count; ++e) {
     const Edge& edge = edges[static_cast<std::size_t>(e)];
     out.cells_on_edge.col(e) << edge.cell[0], edge.cell[1];
@@ -289,8 +288,8 @@ template <Space S> void measure_part(const S& space, const Points3& cut_edges, V
 
 void connect_open(Voronoi& out) {
   set_edges(join_sides(out), out);
-  make_room(out.cells_on_vertex, 3, out.vertices.cols());
-  make_room(out.edges_on_vertex, 3, out.vertices.cols());
+  out.cells_on_vertex.resize(3, out.vertices.cols());
+  out.edges_on_vertex.resize(3, out.vertices.cols());
   const std::vector<VertexSectors> at_vertices = sectors_at_vertices(out);
   for (std::int32_t v = 0; v < out.vertices.cols(); ++v)
     set_vertex(v, at_vertices[static_cast<std::size_t>(v)], out);
@@ -298,12 +297,12 @@ void connect_open(Voronoi& out) {
 
 void measure_open(Voronoi& out, const Points3& cut_edges) {
   const std::int64_t edges = out.cells_on_edge.cols(), vertices = out.cells_on_vertex.cols();
-  make_room(out.edges, 3, edges);
+  out.edges.resize(3, edges);
   for (DoubleVector* values : {&out.dc, &out.dv, &out.angle})
-    make_room(*values, edges, 1);
-  make_room(out.kites, 3, vertices);
-  make_room(out.vertex_area, vertices, 1);
-  make_room(out.cell_area, out.cells.cols(), 1);
+    values->resize(edges);
+  out.kites.resize(3, vertices);
+  out.vertex_area.resize(vertices);
+  out.cell_area.resize(out.cells.cols());
   in_space_of(out.surface, [&](const auto& space) { measure_part(space, cut_edges, out); });
 }
 

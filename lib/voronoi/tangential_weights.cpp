@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "voronoi/tangential_weights.h"
 
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "voronoi/connectivity.h"
 
@@ -51,7 +50,7 @@ TangentialWeights tangential_weights(const Voronoi& voronoi, std::int64_t first,
                                      std::int64_t last) {
   TangentialWeights out;
   Offsets& begins = out.edges.begin;
-  base_detail::make_room(begins, last - first + 1, 1);
+  begins.resize(last - first + 1);
   base_detail::for_each_block(last - first,
                               [&](std::int64_t, std::int64_t begin, std::int64_t end) {
                                 for (std::int64_t k = begin; k != end; ++k)
@@ -60,8 +59,8 @@ TangentialWeights tangential_weights(const Voronoi& voronoi, std::int64_t first,
   begins[last - first] = 0;
   const std::int64_t total = base_detail::exclusive_scan(
       std::span(begins.data(), static_cast<std::size_t>(begins.size())));
-  base_detail::make_room(out.edges.items, total, 1);
-  base_detail::make_room(out.weights, total, 1);
+  out.edges.items.resize(total);
+  out.weights.resize(total);
   base_detail::for_each_block(
       last - first, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k != end; ++k)

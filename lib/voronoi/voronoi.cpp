@@ -2,7 +2,6 @@
 #include <calotte/voronoi.h>
 
 #include "base/first_fault.h"
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
@@ -59,7 +58,7 @@ Rings begin(const Mesh& mesh, Voronoi& out) {
 }
 
 void copy_triangles(const Triangles& triangles, Voronoi& out) {
-  make_room(out.cells_on_vertex, 3, triangles.cols());
+  out.cells_on_vertex.resize(3, triangles.cols());
   for_each_block(triangles.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::copy(triangles.data() + begin, triangles.data() + end, out.cells_on_vertex.data() + begin);
   });
@@ -82,7 +81,7 @@ Voronoi voronoi_of_open(const Mesh& mesh) {
   const Rings rings = begin(hull, out);
   copy_triangles(hull.triangles, out);
   connect(faces_of(hull), rings, out);
-  make_room(out.vertices, 3, hull.triangles.cols());
+  out.vertices.resize(3, hull.triangles.cols());
   for_each_block(hull.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t) {
       const Vec3 &a = column(out.cells, hull.triangles(0, t)),
@@ -111,7 +110,7 @@ Points3 checked_centres(const Mesh& mesh) {
     return std::isfinite(x) && (side == 0 || (x >= 0 && x < side));
   };
   Points3 centres;
-  make_room(centres, 3, mesh.points.cols());
+  centres.resize(3, mesh.points.cols());
   FirstFault fault;
   for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
@@ -142,7 +141,7 @@ void connect(BegunVoronoi& out) {
   connect(Faces{out.voronoi.cells_on_vertex, out.neighbours, out.voronoi.cells.cols()}, out.rings,
           out.voronoi);
   out.rings = {};
-  release(out.neighbours);
+  out.neighbours = {};
 }
 
 } // namespace voronoi_detail

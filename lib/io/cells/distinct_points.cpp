@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/distinct_points.h"
 
+#include "base/array.h"
 #include "base/lonlat.h"
-#include "base/memory.h"
 
 #include <array>
 #include <bit>
@@ -34,8 +34,7 @@ struct Point {
 class Table {
 public:
   Table(std::size_t most, DistinctPoints& points)
-      : points_(points), mask_(std::bit_ceil(2 * most + 2) - 1),
-        slots_(zeros<Slot>(static_cast<std::int64_t>(mask_) + 1)) {}
+      : points_(points), mask_(std::bit_ceil(2 * most + 2) - 1), slots_(mask_ + 1) {}
 
   void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & mask_], 1); }
 
@@ -73,7 +72,7 @@ DistinctPoints find_distinct_points(const std::vector<double>& longitudes,
   constexpr std::size_t batch = 32; // number of slots that are fetched at once
   const std::size_t n = longitudes.size();
   DistinctPoints out;
-  out.id = zeros<std::int32_t>(std::ssize(longitudes));
+  out.id.resize(n);
   Table table(n, out);
   std::array<std::uint64_t, batch> hash{};
   for (std::size_t begin = 0; begin < n; begin += batch) {

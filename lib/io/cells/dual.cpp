@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/dual.h"
 
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "exact/predicates.h"
@@ -81,8 +80,8 @@ Dual make_dual(const Polygons& polygons, std::int64_t corners) {
       return dual;
     }
   }
-  make_room(dual.triangles, 3, triangles);
-  make_room(dual.neighbours, 3, triangles);
+  dual.triangles.resize(3, triangles);
+  dual.neighbours.resize(3, triangles);
   dual.corner.resize(triangles);
   for (std::int32_t v = 0; v < corners; ++v)
     if (const std::int32_t t = triangle[v]; t >= 0) {

@@ -4,7 +4,6 @@
 #include "io/netcdf/cf_values.h"
 
 #include "base/lonlat.h"
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "io/bytes/text.h"
@@ -195,7 +194,7 @@ LonLats read_degrees(const NetcdfReader& file, const std::string& longitude,
 
 Points3 from_degrees(const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
   Points3 points;
-  make_room(points, 3, std::ssize(longitudes));
+  points.resize(3, std::ssize(longitudes));
   for_each_block(points.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
     from_lonlats(longitudes.data() + begin, latitudes.data() + begin, end - begin,
                  reinterpret_cast<Vec3*>(points.data()) + begin);

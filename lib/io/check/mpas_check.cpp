@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/check/mpas_check.h"
 
-#include "base/matrix_memory.h"
 #include "base/message.h"
 #include "voronoi/geometry.h"
 #include "voronoi/stages.h"
@@ -32,11 +31,11 @@ double stored_radius(const NetcdfReader& file, const MeshFile& mesh) {
 /// \param density as in MeshFile; ignored unless it has a value for each cell.
 void check_closed(Mesh mesh, double radius, DoubleVector density, Deviations& deviations) {
   BegunVoronoi cells = begun(mesh);
-  release(mesh.points);
+  mesh.points.resize(3, 0);
   connect(cells);
   Voronoi& voronoi = cells.voronoi;
   if (density.size() != voronoi.cells.cols())
-    release(density);
+    density = {};
   MpasCheck check{deviations, voronoi, std::move(density), radius};
   take_numbering(find_numbering(voronoi, deviations), check);
   measure(voronoi);

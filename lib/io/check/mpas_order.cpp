@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/check/mpas_check.h"
 
-#include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "io/mpas/vertex_order.h"
 
@@ -20,7 +19,7 @@ namespace {
 template <class Columns, class Turned>
 void reorder(const Array<std::int32_t>& from, const Turned& turned, Columns& columns) {
   Columns ordered;
-  make_room(ordered, columns.rows(), columns.cols());
+  ordered.resize(columns.rows(), columns.cols());
   for_each_block(columns.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       for (Eigen::Index j = 0; j < columns.rows(); ++j)

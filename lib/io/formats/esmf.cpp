@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/memory.h"
+#include "base/array.h"
 #include "base/points.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/written_fields.h"
@@ -52,9 +52,9 @@ NetcdfAttributes degrees(const std::string& of) {
 Points3 read_pairs(const NetcdfReader& file, const std::string& name) {
   const std::vector<double> pairs = cf_values(file, name, {-1, 2});
   const double factor = degrees_per_unit(file, name);
-  const std::int64_t count = std::ssize(pairs) / 2;
-  LonLats points{zeros<double>(count), zeros<double>(count)};
-  for (std::size_t i = 0; i < points.longitudes.size(); ++i) {
+  const std::size_t count = pairs.size() / 2;
+  LonLats points{std::vector<double>(count), std::vector<double>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
     points.longitudes[i] = factor * pairs[2 * i];
     points.latitudes[i] = factor * pairs[2 * i + 1];
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/memory.h"
+#include "base/array.h"
 #include "io/bytes/text.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/raw_mesh.h"

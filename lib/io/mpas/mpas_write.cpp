@@ -6,7 +6,6 @@
 #include "io/mpas/mpas_coordinates.h"
 #include "io/mpas/vertex_order.h"
 
-#include "base/matrix_memory.h"
 #include "voronoi/geometry.h"
 #include "voronoi/spacing_fit.h"
 #include "voronoi/stages.h"
@@ -151,9 +150,9 @@ void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& op
 // ---- Files
 
 void announce_lists(MpasFile& file, MpasMesh& mesh) {
-  file.then([&mesh] { release(mesh.points); });
+  file.then([&mesh] { mesh.points.resize(3, 0); });
   put_ids(file.sink(), mesh.voronoi, file.vertex_order());
-  file.then([&mesh] { release(mesh.voronoi.vertices_on_edge); });
+  file.then([&mesh] { mesh.voronoi.vertices_on_edge = {}; });
 }
 
 void announce_measures(MpasFile& file, const MpasMesh& mesh) {

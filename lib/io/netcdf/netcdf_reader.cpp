@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_reader.h"
 
-#include "base/memory.h"
+#include "base/array.h"
 #include "base/parallel.h"
 #include "io/bytes/big_endian.h"
 #include "io/bytes/file_error.h"
@@ -324,7 +324,7 @@ std::vector<T> NetcdfReader::get_all(const std::string& variable,
     fail("{} has more values than a file of its size can hold; make the file again", variable);
   std::vector<T> values;
   try {
-    values = zeros<T>(count);
+    values.resize(static_cast<std::size_t>(count));
   } catch (const std::exception&) {
     fail("{} is too large for this machine's memory; read it on a larger one", variable);
   }

@@ -10,36 +10,7 @@
 #include <utility>
 #include <vector>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 namespace calotte::base_detail {
-
-#ifdef __linux__
-/// Passes `advice` to madvise() for the whole pages, of `page` bytes each, of a block. Errors are
-/// ignored.
-inline void advise(void* begin, std::size_t bytes, std::size_t page, int advice) {
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t first = (address + page - 1) / page * page,
-                       last = (address + bytes) / page * page;
-  if (first < last)
-    madvise(reinterpret_cast<void*>(first), last - first, advice);
-}
-#endif
-
-/// Requests huge pages for fresh memory of a large array if the system lets programs choose. Random
-/// access then causes fewer TLB misses and 512 times fewer page faults. Smaller arrays stay on
-/// small pages: the host of a virtual machine takes back free memory in huge pages, and a new
-/// process then waits 2 to 4 ms for each, where small pages are often left. (Two processors of AMD
-/// EPYC, 163 842 sites: 39 to 90 ms on huge pages, 36 to 57 ms on small ones.)
-inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
-#ifdef __linux__
-  constexpr std::size_t large = std::size_t{64} << 20;
-  if (bytes >= large)
-    advise(begin, bytes, std::size_t{1} << 21, MADV_HUGEPAGE);
-#endif
-}
 
 /// n values of a type without constructors, not initialised, so that the thread that first writes a
 /// page also faults it in. The eight bytes behind the last value may be read: code for four doubles
@@ -77,26 +48,11 @@ private:
     Data data(static_cast<T*>(std::malloc(bytes)));
     if (!data)
       throw std::bad_alloc();
-    prefer_huge_pages(data.get(), bytes);
     return data;
   }
 
   std::int64_t size_ = 0;
   Data data_;
 };
-
-/// Memory for n values; that of a large array prefers huge pages.
-template <class T> void reserve_huge(std::vector<T>& values, std::int64_t n) {
-  values.reserve(static_cast<std::size_t>(n));
-  prefer_huge_pages(values.data(), static_cast<std::size_t>(n) * sizeof(T));
-}
-
-/// A vector of n zeros.
-template <class T> std::vector<T> zeros(std::int64_t n) {
-  std::vector<T> values;
-  reserve_huge(values, n);
-  values.resize(static_cast<std::size_t>(n));
-  return values;
-}
 
 } // namespace calotte::base_detail
