@@ -55,9 +55,6 @@ void require_request(const ConvertRequest& request) {
                    source.path));
 }
 
-/// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
-bool is_in_kilometres(double radius) { return radius > 6300 && radius < 6400; }
-
 /// Whether the radius is that of the file.
 bool keeps_radius(const ConvertRequest& request) {
   return !request.format->sphere_radius && !request.format->model;
@@ -74,9 +71,7 @@ WriteOptions write_options(const ConvertRequest& request, const Density& density
                            const MeshFile& file) {
   WriteOptions options = options_of(*request.format, request.output);
   if (keeps_radius(request))
-    options.sphere_radius = is_in_kilometres(file.sphere_radius)
-                                ? metres_per_km * file.sphere_radius
-                                : file.sphere_radius;
+    options.sphere_radius = file.radius_in_metres();
   if (!request.format->model)
     options.vertex_order = file.vertex_order;
   options.density = density;
@@ -113,7 +108,7 @@ std::string renamed(const std::vector<std::array<std::string, 2>>& names) {
 std::string remarks(const ConvertRequest& request, const MeshFile& file,
                     const WriteOptions& options, const WrittenFields& written) {
   std::string lines;
-  if (is_in_kilometres(file.sphere_radius) && keeps_radius(request) &&
+  if (file.radius_in_metres() != file.sphere_radius && keeps_radius(request) &&
       request.output.ends_with(".nc"))
     lines += message("{}: the radius {} is taken as kilometres and written as {} metres\n",
                      request.output, shortest(file.sphere_radius), shortest(options.sphere_radius));

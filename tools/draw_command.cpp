@@ -11,6 +11,8 @@
 #include "options/coastlines_option.h"
 #include "options/files.h"
 #include "options/region_option.h"
+#include "options/sphere_radius_option.h"
+#include "options/units_option.h"
 #include "run/operator_measures.h"
 #include "run/spacing_survey.h"
 #include "text/text.h"
@@ -129,10 +131,12 @@ void choose_colouring(const DrawArguments& arguments, const MeshFile& file, Draw
 /// The options of a picture of a file's mesh.
 DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
   DrawOptions options = arguments.options;
-  options.radius_km = radius_km(file, arguments.density->widths);
+  const std::optional<double> radius =
+      radius_km(file, arguments.density->widths, arguments.sphere_radius);
+  options.unit = unit_of(arguments.units, radius);
   options.name = file_name(*arguments.source);
-  options.look.coastlines = shows_coastlines(arguments.coastlines, options.radius_km);
-  set_region(arguments, options.radius_km, options.look);
+  options.look.coastlines = shows_coastlines(arguments.coastlines, radius);
+  set_region(arguments, radius, options.look);
   choose_colouring(arguments, file, options);
   return options;
 }
@@ -225,10 +229,15 @@ SphereField field_of(const DrawArguments& arguments) {
   const bool density_asked = asked && arguments.options.colouring == Colouring::density;
   if (resolution.widths && !resolution.widths->of_plane() && !density_asked) {
     const WidthField& widths = *resolution.widths;
-    return {spacings_by(density, widths.least()),
-            message("{}, {}", title, range_text(widths.least(), widths.greatest(), "km")),
-            "cell width, km"};
+    const double radius = arguments.density->widths.radius;
+    const Unit unit = unit_of(arguments.units, radius);
+    const double scale = unit.of_radian / radius, least = scale * widths.least();
+    return {spacings_by(density, least),
+            message("{}, {}", title, range_text(least, scale * widths.greatest(), symbol_of(unit))),
+            "cell width, " + unit.name};
   }
+  if (arguments.units)
+    refuse("a density has no unit of lengths; leave --units out, or give widths in km");
   if (asked && !density_asked) {
     return {spacings_by(density, 1), title, "spacing by the density, over that where it is 1"};
   }
@@ -246,14 +255,17 @@ void draw_density(const DrawArguments& arguments) {
   }
   Look look = arguments.options.look;
   const WidthWords& widths = arguments.density->widths;
-  look.coastlines = shows_coastlines(arguments.coastlines,
-                                     widths.in_km() ? std::optional(widths.radius) : std::nullopt);
-  set_region(arguments, widths.in_km() ? std::optional(widths.radius) : std::nullopt, look);
+  if (arguments.sphere_radius)
+    refuse("--sphere-radius is that of a mesh; widths in km refer to --earth-radius");
+  const std::optional<double> radius = widths.in_km() ? std::optional(widths.radius) : std::nullopt;
+  look.coastlines = shows_coastlines(arguments.coastlines, radius);
+  set_region(arguments, radius, look);
   draw(arguments.output, field_of(arguments), look);
   std::cout << arguments.output << ": picture of a density\n";
 }
 
 void run(const DrawArguments& arguments) {
+  require_sphere_radius(arguments.sphere_radius.value_or(1));
   picture_format(arguments.output); // fails before any input is read
   require_folder(arguments.output);
   if (!arguments.reports.empty()) {
@@ -274,8 +286,8 @@ void add_draw(CLI::App& app) {
                                                  "law, or the convergence of CVT runs.");
   const std::shared_ptr<DrawArguments> arguments = add_draw_options(*command);
   set_help(*command, {.common = {"MESH", "--output", "--what", "--colour", "--projection", "--view",
-                                 "--zoom", "--graticule", "--region", "--size", "--density",
-                                 "--cell-width", "--history", "--spacing-law", "--plane"},
+                                 "--zoom", "--region", "--size", "--density", "--cell-width",
+                                 "--units", "--history", "--spacing-law", "--plane"},
                       .examples = {"calotte draw mesh.nc -o globe.png --what cells --view 285,38",
                                    "calotte draw --history report.json -o convergence.png"}});
   command->callback([arguments] { run(*arguments); });

@@ -8,6 +8,8 @@
 #include "options/coastlines_option.h"
 #include "options/numbers.h"
 #include "options/region_option.h"
+#include "options/sphere_radius_option.h"
+#include "options/units_option.h"
 #include "run/operator_measures.h"
 #include "text/text.h"
 
@@ -173,6 +175,11 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
       "cells)");
   arguments.what = command.get_option("--what");
   add_colour(command, arguments);
+  add_sphere_radius(command, arguments.sphere_radius,
+                    "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
+                    "default: the planet's that the file names, or --earth-radius with "
+                    "--cell-width");
+  add_units(command, arguments.units);
   add_range(command, look.range);
   add_choice<Palette>(
       command, "--palette", look.palette, palette_names(),
@@ -207,7 +214,7 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
       "--spacing-law", arguments.spacing_law,
       "Draw the spacings of the cells against those that --density prescribes, instead of a map");
   for (const char* name : {"--projection", "--view", "--zoom", "--graticule", "--region",
-                           "--coastlines", "--what", "--colour"}) {
+                           "--coastlines", "--what", "--colour", "--sphere-radius", "--units"}) {
     law->excludes(command.get_option(name));
     history->excludes(command.get_option(name));
   }
@@ -228,8 +235,9 @@ void add_plane_options(CLI::App& command, DrawArguments& arguments) {
   const OptionGroup group(command, "Plane");
   CLI::Option* plane = add_plane(command, *arguments.source);
   arguments.domain = add_domain(command);
-  for (const char* name : {"--projection", "--view", "--zoom", "--graticule", "--region",
-                           "--coastlines", "--spacing-law", "--history"}) {
+  for (const char* name :
+       {"--projection", "--view", "--zoom", "--graticule", "--region", "--coastlines",
+        "--spacing-law", "--history", "--sphere-radius", "--units"}) {
     plane->excludes(command.get_option(name));
   }
 }

@@ -23,7 +23,9 @@ struct DrawArguments {
   const CLI::Option* colour = nullptr;
   std::string output;
   DrawOptions options;
-  std::string error_of;             ///< the operator whose errors are drawn as a field, or ""
+  std::string error_of;                ///< the operator whose errors are drawn as a field, or ""
+  std::optional<double> sphere_radius; ///< metres
+  std::optional<std::string> units;
   std::optional<bool> coastlines;   ///< as asked for
   std::string region;               ///< whose boundary is drawn, as asked for
   std::string inside;               ///< a point of it, LON,LAT, or ""

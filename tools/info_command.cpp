@@ -207,7 +207,8 @@ std::string read_and_measure(const InfoRequest& request) {
     measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi.text());
     if (request.operators)
       measured.remarks.emplace_back(no_operators);
-    measured.unit = unit_of(request.units, radius_of(request, file));
+    measured.radius_km = radius_of(request, file);
+    measured.unit = unit_of(request.units, measured.radius_km);
   } else if (file.plane())
     measure_plane(request, file, covered, measured);
   else
@@ -245,7 +246,8 @@ void add_info(CLI::App& app) {
   request->density = add_density(*command);
   add_sphere_radius(*command, request->sphere_radius,
                     "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
-                    "default: the one in a NetCDF file, or --earth-radius with --cell-width");
+                    "default: the planet's that the file names, or --earth-radius with "
+                    "--cell-width");
   add_units(*command, request->units);
   command->get_option("--plane")->excludes("--sphere-radius")->excludes("--units");
   command

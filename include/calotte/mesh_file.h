@@ -117,6 +117,11 @@ struct MeshFile {
 
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
   double sphere_radius = 1;
+  /// Radius of the planet that a file of the sphere is of, metres; none if nothing names it. It is
+  /// sphere_radius in NetCDF files, where that is not 1; 1000 times a radius of 6300 to 6400, which
+  /// is the Earth's in km; on the unit sphere the attribute planet_radius, or else that of the
+  /// model which alone has such files, see suits().
+  std::optional<double> planet_radius = {};
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of an MPAS file
   DoubleVector density = {};          ///< by site, as the file has it; empty if it has none
   std::vector<MeshField> fields = {}; ///< the file's fields
@@ -131,6 +136,11 @@ struct MeshFile {
   }
   /// True if the rings of a plane's surface clip the cells of the mesh.
   bool is_clipped() const { return plane() && mesh->surface.is_bounded(); }
+  /// Radius of the sphere in NetCDF formats, which are in metres: that of the file, or in metres
+  /// that of an Earth in km; 1 for the unit sphere.
+  double radius_in_metres() const {
+    return sphere_radius == 1 ? 1 : planet_radius.value_or(sphere_radius);
+  }
   /// The surface of the mesh and the polygons.
   const Surface& surface() const { return mesh ? mesh->surface : polygons->surface; }
   /// The mesh if it is one of the sphere; otherwise null.
@@ -286,7 +296,8 @@ struct WrittenFields {
 
 /// Writes the contents of a file to another format. The cells keep their shapes: polygons go to
 /// formats of cells, and to those of triangles that can hold other faces (vtp, vtu, off, ply) where
-/// there is no mesh. Fields that the format cannot hold are left out. MPAS needs Voronoi cells: the
+/// there is no mesh. Fields that the format cannot hold are left out. The planet stays that of the
+/// file, unless the options have another. MPAS needs Voronoi cells: the
 /// polygons of an open mesh are written if each corner of three cells is the circumcentre of their
 /// centres, within a millionth of a cell's width. Density and fields at cells go along.
 /// \param options its density, if not uniform, replaces the file's.

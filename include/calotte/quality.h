@@ -9,11 +9,27 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 /// Measures of a grid, and the errors that the operators of a C-grid model have on a mesh.
 CALOTTE_API_BEGIN
 namespace calotte {
+
+/// A unit in which people read lengths and areas of the sphere.
+struct Unit {
+  std::string name;        ///< of lengths: "km", "degrees" or "radians"; "" in a plane
+  double of_radian = 1;    ///< lengths: the value of one radian
+  std::string area;        ///< of areas: "km^2" or "steradians"; "" in a plane
+  double of_steradian = 1; ///< areas: the value of one steradian
+};
+
+/// The unit of a mesh of the sphere.
+/// \param units km, degrees or radians. Default: km where the radius is known, else degrees.
+/// \param radius_km of the sphere, if it is known, see MeshFile::planet_radius; > 0.
+/// \throws Error invalid_argument for another word, and for km without a radius.
+Unit unit_of(const std::optional<std::string>& units, std::optional<double> radius_km);
 
 /// Extremes and mean of a quantity; all 0 if there is nothing to measure.
 struct ValueRange {

@@ -97,6 +97,9 @@ struct WriteOptions {
   /// finite; default 1. find_model() gives the value that a model expects. A plane and the other
   /// formats store the points unchanged.
   double sphere_radius = 1;
+  /// Radius of the planet that the mesh is of, metres; > 0 and finite. NetCDF files on the unit
+  /// sphere name it, as the attribute planet_radius, see MeshFile. Default: none, no attribute.
+  std::optional<double> planet_radius = {};
   /// The order of verticesOnCell in complete MPAS files. Default: none, which means after_edges, or
   /// before_edges for a limited area.
   std::optional<VertexOrder> vertex_order = {};
@@ -181,6 +184,7 @@ struct ModelNeeds {
   std::string name;         ///< such as "MPAS-Ocean"
   Format format;            ///< of its files
   double sphere_radius = 1; ///< of its files
+  double planet_radius = 0; ///< of the planet that it computes, metres
   /// Whether it uses lengths unchanged, in metres, so that other radii of a planet suit it, too.
   bool any_planet = false;
   Numbering numbering = Numbering::by_format;          ///< of the cells

@@ -36,7 +36,7 @@ struct GridFile {
 /// \param recipe the request.
 /// \param schedule plan(recipe); its density is that of the file.
 /// \param options `density` and `site_density` have no effect; fields apply to a mesh that is
-///        written whole.
+///        written whole. The planet of a recipe of widths has their radius.
 /// \throws Error as write(), write_limited_area() and walled(); invalid_argument for a mesh of
 ///         another surface than the schedule's, and for a limited area in another format.
 GridFile write_grid(const std::string& path, const Mesh& mesh, const Recipe& recipe,

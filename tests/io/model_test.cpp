@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,37 @@ TEST_CASE("the file that a model's options make suits it alone") {
   CHECK(!suits(model("mpas-atmosphere"), Format::mpas, 6371229, before));
   CHECK(!suits(model("mpas-atmosphere"), Format::scrip, 1, before));
   CHECK(!suits(model("mpas-sw"), Format::mpas, 1, after, {{"nVertLevels", 1}}));
+}
+
+TEST_CASE("files on the unit sphere name the planet that they are of") {
+  const Scratch scratch;
+  const Mesh mesh = delaunay(fibonacci_sphere(300));
+  const auto planet = [&](const std::string& name, const WriteOptions& options) {
+    write(scratch / name, mesh, options);
+    return read_mesh_file(scratch / name).planet_radius;
+  };
+  using Radius = std::optional<double>;
+  CHECK(planet("grid.nc", {}) == std::nullopt);
+  CHECK(planet("grid.nc", {.planet_radius = 3390e3}) == Radius(3390e3));
+  for (const Format format :
+       {Format::mpas_minimal, Format::ugrid, Format::ugrid_triangles, Format::scrip, Format::esmf})
+    CHECK(planet("grid.nc", {.format = format, .planet_radius = 3390e3}) == Radius(3390e3));
+  CHECK(planet("grid.exo", {.planet_radius = 3390e3}) == Radius(3390e3));
+  // A radius of the sphere counts more than the planet's.
+  CHECK(planet("grid.nc", {.sphere_radius = 2e6, .planet_radius = 3390e3}) == Radius(2e6));
+  CHECK(planet("grid.nc", {.sphere_radius = 6371}) == Radius(6371e3)); // an Earth in km
+  CHECK(planet("grid.vtp", {.planet_radius = 3390e3}) == std::nullopt);
+  // Without the attribute the order of vertices or the format tells the model.
+  CHECK(planet("grid.nc", {.vertex_order = VertexOrder::before_edges}) ==
+        Radius(model("mpas-atmosphere").planet_radius));
+  CHECK(planet("nod2d.out", {}) == Radius(model("fesom").planet_radius));
+  CHECK(code_of([&] { planet("grid.nc", {.planet_radius = 0}); }) == ErrorCode::invalid_argument);
+
+  planet("grid.nc", {.planet_radius = 3390e3});
+  const MeshFile file = read_mesh_file(scratch / "grid.nc");
+  CHECK(file.radius_in_metres() == 1);
+  write(scratch / "again.nc", file, {.format = Format::ugrid});
+  CHECK(read_mesh_file(scratch / "again.nc").planet_radius == Radius(3390e3));
 }
 
 TEST_CASE("files hold the dimensions that a model looks for") {

@@ -215,6 +215,37 @@ def test_results_show_themselves_in_a_line(files):
         "<calotte.Surface: 1 ring, 360 corners, 0.09545 steradians>"
 
 
+def test_lengths_are_shown_in_km_where_the_planet_is_known(tmp_path):
+    points, earth = calotte.cvt(642).mesh, calotte.cvt(cell_width="960km").mesh
+    mars = calotte.cvt(cell_width="960km", earth_radius=3390).mesh
+    assert (points.earth_radius, earth.earth_radius, mars.earth_radius) == (None, 6371, 3390)
+    measured = calotte.quality(earth)
+    assert (measured.unit.name, measured.unit.area, measured.unit.of_radian) == ("km", "km^2", 6371)
+    assert f"spacing {measured.spacing.min * 6371:.4g} to " in repr(measured) and " km, " in repr(measured)
+    assert pickle.loads(pickle.dumps(measured)).unit.name == "km"
+    assert " degrees, " in repr(calotte.quality(points))
+    assert " radians, " in repr(calotte.quality(earth, units="radians"))
+    plane = calotte.cvt(100, surface=calotte.periodic_box(2, 1)).mesh
+    assert calotte.quality(plane).unit is None and plane.earth_radius is None
+    with pytest.raises(calotte.Error, match="radius"):
+        calotte.quality(points, units="km")
+    with pytest.raises(calotte.Error, match="plane"):
+        calotte.quality(plane, units="km")
+    with pytest.raises(calotte.Error, match="not one of km, degrees, radians"):
+        calotte.quality(points, units="miles")
+    for name, mesh, options, radius in (
+            ("a.nc", earth, {}, 6371), ("b.nc", points, {}, None), ("c.nc", mars, {"format": "ugrid"}, 3390),
+            ("d.nc", points, {"model": "mpas-atmosphere"}, 6371.229),
+            ("e.nc", points, {"model": "mpas-ocean"}, 6371.22),
+            ("f.nc", points, {"sphere_radius": 2e6}, 2000), ("g.vtp", earth, {}, None)):
+        calotte.write(tmp_path / name, mesh, **options)
+        assert calotte.read(tmp_path / name).earth_radius == radius, name
+    again = calotte.read(tmp_path / "a.nc")
+    assert calotte.refine(again, region="circle=0,0,3000km", factor=1.3).mesh.earth_radius == 6371
+    assert calotte.refine(earth, region="circle=0,0,3000km", factor=1.3).mesh.earth_radius == 6371
+    assert pickle.loads(pickle.dumps(again)).earth_radius == 6371
+
+
 def test_every_attribute_has_documentation():
     for kind in (calotte.Mesh, calotte.Polygons, calotte.Voronoi, calotte.Quality, calotte.Check,
                  calotte.OperatorErrors, calotte.Surface, calotte.CellWidth, calotte.Density):
@@ -261,6 +292,14 @@ def test_pictures(files, tmp_path):
         assert len(shapes.get_paths()) > 0.8 * cells
         assert len(shapes.get_array()) == len(shapes.get_paths())
         axes.figure.savefig(tmp_path / "picture.png")
+        plt.close(axes.figure)
+    earth = calotte.cvt(cell_width="960km")
+    for draw, label in ((lambda: grid.plot(), "cell width, degrees"),
+                        (lambda: grid.plot("area", earth_radius=6371), "cell area, km^2"),
+                        (lambda: earth.plot("area"), "cell area, km^2"),
+                        (lambda: earth.plot(units="radians"), "cell width, radians")):
+        axes = draw()
+        assert axes.figure.axes[1].get_ylabel() == label
         plt.close(axes.figure)
     with pytest.raises(calotte.Error, match="no field salinity"):
         calotte.read(files / "ocean.nc").plot("salinity")

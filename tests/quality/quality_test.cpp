@@ -268,6 +268,25 @@ TEST_CASE("laws: Euler's counts, areas of the sphere, means within their bounds"
   }
 }
 
+TEST_CASE(
+    "the unit of lengths is km where the radius is known, else degrees, or the one asked for") {
+  const Unit km = unit_of({}, 6371), degrees = unit_of({}, {});
+  CHECK(km.name == "km");
+  CHECK(km.of_radian == 6371);
+  CHECK(km.area == "km^2");
+  CHECK(km.of_steradian == 6371.0 * 6371);
+  CHECK(degrees.name == "degrees");
+  CHECK(degrees.of_radian == 180 / pi);
+  CHECK(degrees.area == "steradians");
+  CHECK(degrees.of_steradian == 1);
+  CHECK(unit_of("degrees", 6371).of_radian == degrees.of_radian);
+  CHECK(unit_of("radians", 6371).of_radian == 1);
+  CHECK_THROWS_WITH_AS(unit_of("km", {}),
+                       "km require the radius of the sphere; give it, or the unit degrees", Error);
+  CHECK_THROWS_WITH_AS(unit_of("miles", 1), "the unit \"miles\" is not one of km, degrees, radians",
+                       Error);
+}
+
 TEST_CASE("the icosahedron is perfect") {
   const Quality q = quality(delaunay(bisected_icosahedron(0)));
   CHECK(q.degrees == std::vector<std::int64_t>{0, 0, 0, 0, 0, 12});

@@ -34,7 +34,7 @@ TEST_CASE("a width in km makes a uniform grid of the Earth, with the number of c
   const Bench bench;
   const Outcome made =
       check_success(bench, "cvt --cell-width 960km -o mesh.nc"); // 639 cells; 642 are symmetric
-  CHECK(made.out.starts_with("mesh.nc: 642 cells, converged, "));
+  CHECK(made.out.starts_with("mesh.nc: 642 cells, all shapes within the limits of models\n"));
   CHECK(made.err == "calotte: cells 960 km wide require 639 cells; a symmetric grid near that has "
                     "642, 957.8 km wide\n");
   const std::string mesh = bench.file("mesh.nc");
@@ -48,7 +48,7 @@ TEST_CASE("a width in km makes a uniform grid of the Earth, with the number of c
   CHECK(has(check_success(bench, "cvt --cell-width 1000km -o other.vtp").out, " 589 cells, "));
   CHECK(has(check_success(bench, "plan --cell-width 1000km").out, "\ncells                 589\n"));
   CHECK(has(check_success(bench, "cvt --cell-width 400km -o finer.vtp").out,
-            " 3672 cells, converged, "));
+            " 3672 cells, all shapes within"));
   CHECK(has(check_success(bench, "plan --cell-width 400km").out, "\ncells                 3672\n"));
   CHECK(
       has(check_success(bench, "info finer.vtp").out, "\ndegree: cells         5: 12, 6: 3660\n"));
@@ -94,24 +94,66 @@ TEST_CASE("widths that are none are refused") {
 )");
 }
 
-TEST_CASE("files are on the unit sphere by default, also those of grids in km") {
+TEST_CASE("files are on the unit sphere by default, and name the planet that their widths are of") {
   const Bench bench;
   const auto spacing = [&](const std::string& arguments) {
-    check_success(bench, "cvt --cell-width 7000km --iterations 1 -o mesh.nc " + arguments);
+    check_success(bench, "cvt --cells 12 --iterations 1 -o mesh.nc " + arguments);
     const std::string shown = check_success(bench, "info mesh.nc").out;
     const std::size_t from = shown.find("spacing, ");
     return shown.substr(from, shown.find(' ', from + 22) - from);
   };
+  const std::string width = "--cell-width 7000km ", km = "spacing, km           ";
   CHECK(spacing("") == "spacing, degrees      63.4349");
-  CHECK(spacing("--format mpas-minimal") == "spacing, degrees      63.4349");
-  CHECK(spacing("--sphere-radius earth") == "spacing, km           7053.9"); // atan(2) 6371.229
-  CHECK(spacing("--sphere-radius 1") == "spacing, degrees      63.4349");
-  CHECK(spacing("--sphere-radius 2e6") == "spacing, km           2214.3");
   CHECK(spacing("--format ugrid") == "spacing, degrees      63.4349");
-  check_success(bench, "cvt --cells 12 -o unit.nc");
-  CHECK(has(check_success(bench, "info unit.nc").out, "spacing, degrees "));
-  check_success(bench, "convert unit.nc same.nc --cell-width 7000km");
-  CHECK(has(check_success(bench, "info same.nc").out, "spacing, degrees "));
+  CHECK(spacing(width) == km + "7053.64"); // atan(2) 6371
+  for (const char* format : {"mpas-minimal", "ugrid", "scrip", "esmf"})
+    CHECK(spacing(width + "--format " + format) == km + "7053.64");
+  CHECK(spacing(width + "--earth-radius 3390") == km + "3753.23");
+  CHECK(spacing(width + "--sphere-radius earth") == km + "7053.9"); // 6371.229
+  CHECK(spacing(width + "--sphere-radius 1") == km + "7053.64");
+  CHECK(spacing("--sphere-radius 2e6") == km + "2214.3");
+  CHECK(spacing("--for mpas-atmosphere") == km + "7053.9");
+  CHECK(spacing("--for mpas-sw") == km + "7053.9");
+  CHECK(spacing("--for mpas-ocean") == km + "7053.89"); // 6371.22
+  CHECK(spacing("--for mpas-atmosphere " + width) == km + "7053.64");
+}
+
+TEST_CASE("a file's planet follows it through conversions, changes, cuts and unknown attributes") {
+  const Bench bench;
+  const auto is_km = [&](const std::string& name) {
+    return has(check_success(bench, "info " + name).out, "spacing, km ");
+  };
+  check_success(bench, "cvt --cell-width 960km -o widths.nc");
+  check_success(bench, "convert widths.nc same.nc");
+  CHECK(is_km("same.nc"));
+  check_success(bench, "convert widths.nc other.nc --format ugrid");
+  CHECK(is_km("other.nc"));
+  check_success(bench, "refine widths.nc --region circle=0,0,3000km --factor 1.3 -o finer.nc");
+  CHECK(is_km("finer.nc"));
+  check_success(bench, "cut widths.nc --region circle=0,0,3000km --rings 2 -o part.nc");
+  CHECK(is_km("part.nc"));
+  check_success(bench, "convert widths.nc ocean.nc --for mpas-ocean");
+  check_success(bench,
+                "cull ocean.nc --field latCell --sea-below 0 --for mpas-atmosphere -o sea.nc");
+  CHECK(is_km("sea.nc"));
+  check_success(bench, "convert ocean.nc back.nc --sphere-radius 1");
+  CHECK(has(check_success(bench, "info back.nc --report a.json").out, "spacing, km "));
+  const nlohmann::json report = nlohmann::json::parse(bench.file("a.json"));
+  CHECK(report["radius_km"] == 6371.22);
+  CHECK(report["cell_area_km2"]["mean"].get<double>() ==
+        doctest::Approx(report["cell_area"]["mean"].get<double>() * 6371.22 * 6371.22));
+  check_success(bench, "cvt --cells 162 -o grid.nc --for mpas-ocean --report run.json");
+  CHECK(nlohmann::json::parse(bench.file("run.json"))["radius_km"] == 6371.22);
+  // Of other programs: MPAS-Atmosphere's order of vertices, and FESOM's own format.
+  check_success(bench, "cvt --cells 162 -o air.nc --for mpas-atmosphere");
+  std::string bytes = bench.file("air.nc");
+  bytes.replace(bytes.find("planet_radius"), 13, "planet_tinted");
+  bench.file("air.nc", bytes);
+  CHECK(is_km("air.nc"));
+  check_success(bench, "convert air.nc nod2d.out --for fesom");
+  CHECK(is_km("nod2d.out"));
+  check_success(bench, "convert air.nc mesh.vtp");
+  CHECK(!is_km("mesh.vtp")); // its format names no planet
 }
 
 TEST_CASE("info speaks in km, degrees or radians") {
@@ -137,6 +179,28 @@ TEST_CASE("info speaks in km, degrees or radians") {
 --units km | 2 | --units km requires the radius of the sphere; give --sphere-radius earth, or a radius in metres
 --plane --units km | 2 | --plane excludes --units; see calotte info --help
 )");
+}
+
+TEST_CASE("pictures are in the unit that info has, or in that of --units") {
+  const Bench bench;
+  check_success(bench, "cvt --cells 12 -o unit.nc");
+  check_success(bench, "cvt --cell-width 7000km -o earth.nc");
+  const auto drawn = [&](const std::string& arguments) {
+    check_success(bench, "draw " + arguments + " -o a.svg --title x --what cells");
+    return bench.file("a.svg");
+  };
+  CHECK((drawn("unit.nc") == drawn("unit.nc --units degrees")));
+  CHECK((drawn("unit.nc --units radians") != drawn("unit.nc")));
+  CHECK((drawn("unit.nc --sphere-radius 6371000") == drawn("earth.nc")));
+  CHECK((drawn("earth.nc") == drawn("earth.nc --units km")));
+  CHECK((drawn("earth.nc --units degrees") == drawn("unit.nc")));
+  CHECK((drawn("earth.nc --colour area") != drawn("earth.nc --colour area --units degrees")));
+  check_refusals(bench, "draw -o a.svg", R"(
+unit.nc --units km | 2 | --units km requires the radius of the sphere; give --sphere-radius earth
+unit.nc --plane --units km | 2 | --units excludes --plane
+--density x8 --units km | 2 | a density has no unit of lengths; leave --units out, or give widths in km
+)");
+  check_success(bench, "draw --cell-width 7000km --units degrees -o a.svg");
 }
 
 TEST_CASE("a radius that may be in km gives a warning, where it is given and where it is read") {

@@ -51,9 +51,9 @@ std::string caption_of(const DrawOptions& options, double mean, bool plane) {
   switch (options.colouring) {
   case Colouring::spacing:
     return std::string(cells ? "mean distance to the neighbours" : "mean side of the triangle") +
-           (plane               ? ""
-            : options.radius_km ? ", km"
-                                : ", degrees (1\u00b0 = 0.01745 radians)");
+           (plane                            ? ""
+            : options.unit.name == "degrees" ? ", degrees (1\u00b0 = 0.01745 radians)"
+                                             : ", " + options.unit.name);
   case Colouring::angle:
     return cells ? "smallest angle around the site, degrees"
                  : "smallest angle of the triangle, degrees";
@@ -62,7 +62,8 @@ std::string caption_of(const DrawOptions& options, double mean, bool plane) {
                  : "neighbours of the corner furthest from 6: triangles of each kind";
   case Colouring::area:
     return std::string("area of the ") + (cells ? "cell" : "triangle") + " over the mean, " +
-           number_text(mean, 3) + (plane ? "" : " steradians");
+           (plane ? number_text(mean, 3)
+                  : number_text(options.unit.of_steradian * mean, 3) + " " + options.unit.area);
   case Colouring::quality:
     return cells ? "shortest over longest side of the cell"
                  : "quality of the triangle: 1 when equilateral";
@@ -99,12 +100,12 @@ Legend make_legend(Painting& painting, const DrawOptions& options) {
   const bool angles = options.colouring == Colouring::angle;
   const double mean = mean_of(painting.values);
   const double unit = options.colouring == Colouring::area ? 1 / mean
-                      : lengths                            ? options.radius_km.value_or(degrees)
+                      : lengths                            ? options.unit.of_radian
                       : angles                             ? degrees
                                                            : 1;
   std::for_each(painting.values.begin(), painting.values.end(), [unit](double& v) { v *= unit; });
   painting.scale = make_scale(painting.values, options.colouring);
-  painting.scale.degrees = angles || (lengths && !options.radius_km);
+  painting.scale.degrees = angles || (lengths && options.unit.name == "degrees");
   painting.scale.palette = options.look.palette;
   if (options.look.range) {
     set_range(painting.scale, *options.look.range);

@@ -4,6 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
+#include <calotte/quality.h>
 #include <calotte/surface.h>
 
 #include <functional>
@@ -82,10 +83,10 @@ struct DrawOptions {
   Shapes shapes = Shapes::triangles;
   Colouring colouring = Colouring::spacing;
   Density density = {};
-  CellField field = {};                 ///< by site
-  std::string field_name = {};          ///< for the legend
-  std::string name = {};                ///< of the mesh, such as its file's, for the title
-  std::optional<double> radius_km = {}; ///< of the sphere; without it lengths are in degrees
+  CellField field = {};        ///< by site
+  std::string field_name = {}; ///< for the legend
+  std::string name = {};       ///< of the mesh, such as its file's, for the title
+  Unit unit = unit_of({}, {}); ///< of lengths and areas of the sphere
   /// The cells of an open mesh, one for each site, if known: also those at the boundary are drawn.
   const Polygons* cells = nullptr;
 };

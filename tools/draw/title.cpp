@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 namespace calotte::tools {
 
@@ -28,6 +27,8 @@ std::string range_text(double low, double high, const std::string& unit) {
   return from == to ? to + end : from + (angle ? end : "") + " to " + to + end;
 }
 
+std::string symbol_of(const Unit& unit) { return unit.name == "degrees" ? "\u00b0" : unit.name; }
+
 std::string counts_of(const Mesh& mesh, Shapes shapes) {
   return message(
       "{} cells{}", grouped(mesh.points.cols()),
@@ -45,13 +46,10 @@ std::string mesh_title(const DrawOptions& options, const std::string& parts,
                [](double value) { return std::isfinite(value); });
   if (known.empty())
     return title;
-  const double unit = flat ? 1 : options.radius_km.value_or(180 / std::numbers::pi);
+  const double unit = flat ? 1 : options.unit.of_radian;
   const auto [least, greatest] = std::minmax_element(known.begin(), known.end());
   return title + ", " + length + " " +
-         range_text(unit * *least, unit * *greatest,
-                    flat                ? ""
-                    : options.radius_km ? "km"
-                                        : "\u00b0");
+         range_text(unit * *least, unit * *greatest, flat ? "" : symbol_of(options.unit));
 }
 
 } // namespace calotte::tools

@@ -12,13 +12,16 @@ namespace calotte::tools {
 /// both ends agree.
 std::string range_text(double low, double high, const std::string& unit);
 
+/// The unit of lengths in such a range: a word, or the sign of degrees.
+std::string symbol_of(const Unit& unit);
+
 /// "10 242 cells", and the number of triangles where these are drawn.
 std::string counts_of(const Mesh& mesh, Shapes shapes);
 
 /// The title of a picture of a mesh, marked text: its name, its parts and the range of a length,
 /// such as "a.nc: 10 242 cells, spacing 206 to 251 km"; or that of the look.
-/// \param lengths in radians, for the title in km if the radius is known, otherwise in degrees; of
-///        a flat mesh in its own unit. NaN is left out.
+/// \param lengths in radians, for the title in the unit of the options; of a flat mesh in its own
+///        unit. NaN is left out.
 std::string mesh_title(const DrawOptions& options, const std::string& parts,
                        const std::string& length, const std::vector<double>& lengths,
                        bool flat = false);

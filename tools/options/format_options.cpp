@@ -114,6 +114,7 @@ WriteOptions options_of(const FormatWords& words, const std::string& path) {
   require_radius(options.sphere_radius, options.format, path);
   if (model != nullptr) {
     options.sphere_radius = *radius_for(model, words.sphere_radius);
+    options.planet_radius = model->planet_radius;
     options.numbering = model->numbering;
     options.vertex_order = model->vertex_order;
     options.dimensions = model->dimensions;

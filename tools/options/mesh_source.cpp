@@ -62,8 +62,8 @@ std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
                                 std::optional<double> metres) {
   if (metres)
     return *metres / metres_per_km;
-  if (file.sphere_radius != 1 && is_netcdf(file))
-    return file.sphere_radius / metres_per_km;
+  if (file.planet_radius)
+    return *file.planet_radius / metres_per_km;
   return widths.in_km() ? std::optional(widths.radius) : std::nullopt;
 }
 

@@ -33,8 +33,8 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 ///         of the sphere.
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
-/// The radius of the sphere, km: that given in metres, that of a NetCDF file, which is in metres,
-/// or the one to which widths in km refer; none if none of these is known.
+/// The radius of the sphere, km: that given in metres, that of the planet which a file is of, or
+/// the one to which widths in km refer; none if none of these is known.
 std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
                                 std::optional<double> metres = {});
 

@@ -220,6 +220,8 @@ std::string to_json(const Measured& measured) {
     json["radius_km"] = *measured.radius_km;
     json["spacing_km"] = to_json(scaled(quality.spacing, *measured.radius_km));
     json["least_dc_km"] = quality.spacing.min * *measured.radius_km;
+    if (const ValueRange area = measured.areas.value_or(quality.cell_area); area.max > 0)
+      json["cell_area_km2"] = to_json(scaled(area, *measured.radius_km * *measured.radius_km));
   }
   if (measured.open)
     add_boundary(measured, json);
@@ -308,6 +310,11 @@ std::string to_json(const Polygons& polygons, const std::optional<Mesh>& mesh,
   if (found.spacing.max > 0)
     json["spacing"] = to_json(found.spacing);
   json["cell_area"] = to_json(found.area);
+  if (measured.radius_km) {
+    json["radius_km"] = *measured.radius_km;
+    json["spacing_km"] = to_json(scaled(found.spacing, *measured.radius_km));
+    json["cell_area_km2"] = to_json(scaled(found.area, *measured.radius_km * *measured.radius_km));
+  }
   json["cells_area"] =
       areas(polygons).sum() / (polygons.surface.is_sphere() ? 4 * std::numbers::pi : 1);
   add_shapes(found, mesh, json);

@@ -317,6 +317,7 @@ ChangedFile changed_file(const MeshFile& old, ChangedMesh changed, const FieldMe
   out.file.format = old.format;
   out.file.not_voronoi = old.not_voronoi;
   out.file.sphere_radius = old.sphere_radius;
+  out.file.planet_radius = old.planet_radius;
   out.file.vertex_order = old.vertex_order;
   const bool clipped = old.is_clipped(); // the boundary determines the cells
   if (old.polygons && !clipped)

@@ -107,6 +107,8 @@ NetcdfGridFile::NetcdfGridFile(const std::string& path, const WriteOptions& opti
     : file_(path, options.progress) {
   file_.attribute({"Conventions", conventions});
   file_.attribute({"sphere_radius", options.sphere_radius});
+  if (options.sphere_radius == 1 && options.planet_radius)
+    file_.attribute({planet_attribute, *options.planet_radius});
   if (!options.history.empty())
     file_.attribute({"history", options.history});
 }

@@ -76,6 +76,9 @@ template <class T, class Of> NetcdfWriter::Fill<T> table(std::int64_t width, con
   };
 }
 
+/// The attribute of files on the unit sphere that has the radius of the planet, metres.
+inline constexpr const char* planet_attribute = "planet_radius";
+
 /// A file whose variables are declared together with their contents.
 class NetcdfGridFile {
 public:

@@ -6,21 +6,28 @@
 namespace calotte {
 
 const std::vector<ModelNeeds>& models() {
-  static const std::vector<ModelNeeds> all{
-      {.word = "mpas-atmosphere",
-       .name = "MPAS-Atmosphere",
-       .format = Format::mpas,
-       .vertex_order = VertexOrder::before_edges},
-      {.word = "mpas-ocean",
-       .name = "MPAS-Ocean",
-       .format = Format::mpas,
-       .sphere_radius = 6371220,
-       .any_planet = true},
-      {.word = "mpas-sw",
-       .name = "MPAS' shallow-water core",
-       .format = Format::mpas,
-       .dimensions = {{"nVertLevels", 1}, {"nTracers", 1}}},
-      {.word = "fesom", .name = "FESOM", .format = Format::fesom, .numbering = Numbering::curve}};
+  constexpr double earth_in_mpas = 6371229; // mpas_constants.F
+  static const std::vector<ModelNeeds> all{{.word = "mpas-atmosphere",
+                                            .name = "MPAS-Atmosphere",
+                                            .format = Format::mpas,
+                                            .planet_radius = earth_in_mpas,
+                                            .vertex_order = VertexOrder::before_edges},
+                                           {.word = "mpas-ocean",
+                                            .name = "MPAS-Ocean",
+                                            .format = Format::mpas,
+                                            .sphere_radius = 6371220,
+                                            .planet_radius = 6371220,
+                                            .any_planet = true},
+                                           {.word = "mpas-sw",
+                                            .name = "MPAS' shallow-water core",
+                                            .format = Format::mpas,
+                                            .planet_radius = earth_in_mpas,
+                                            .dimensions = {{"nVertLevels", 1}, {"nTracers", 1}}},
+                                           {.word = "fesom",
+                                            .name = "FESOM",
+                                            .format = Format::fesom,
+                                            .planet_radius = 6367500,
+                                            .numbering = Numbering::curve}};
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include "io/bytes/file_error.h"
 #include "io/cells/cell_rows.h"
 #include "io/cells/mesh_intake.h"
+#include "io/cells/model_grid.h"
 #include "io/command.h"
 #include "io/formats/format_table.h"
 #include "io/formats/formats.h"
@@ -11,9 +12,11 @@
 
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
+#include <calotte/write.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -61,6 +64,25 @@ struct OpenFile {
   std::optional<NetcdfReader> netcdf;
 };
 
+/// MeshFile::planet_radius.
+std::optional<double> find_planet(const MeshFile& content, const OpenFile& file) {
+  const double radius = content.sphere_radius;
+  if (!content.surface().is_sphere())
+    return std::nullopt;
+  if (radius > 6300 && radius < 6400) // as in JIGSAW's meshes
+    return 1000 * radius;
+  if (radius != 1)
+    return file.netcdf ? std::optional(radius) : std::nullopt;
+  const double named = file.netcdf ? file.netcdf->number("", planet_attribute, 0) : 0;
+  if (named > 0 && std::isfinite(named))
+    return named;
+  const auto is_its = [&](const ModelNeeds& model) {
+    return suits(model, file.row->info.format, radius, content.vertex_order);
+  };
+  const auto model = std::ranges::find_if(models(), is_its);
+  return model == models().end() ? std::nullopt : std::optional(model->planet_radius);
+}
+
 MeshFile read_any(const std::string& path, FieldChoice choice) {
   const OpenFile file(path);
   if (file.row->read == nullptr)
@@ -68,7 +90,9 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
   RawMesh raw = file.row->read(file.input(path, choice));
   if (raw.surface.is_sphere() && file.row->reads_planes && lies_in_plane(raw.points))
     raw.surface = Surface::plane();
-  return make_mesh_file(path, file.row->label, std::move(raw));
+  MeshFile content = make_mesh_file(path, file.row->label, std::move(raw));
+  content.planet_radius = find_planet(content, file);
+  return content;
 }
 
 // ---- Points alone

@@ -22,6 +22,10 @@ WriteOptions options_for(const Mesh& mesh, const Schedule& schedule, const Write
   WriteOptions all = options;
   all.density = schedule.density;
   all.site_density = {};
+  if (schedule.widths && !schedule.widths->of_plane()) {
+    constexpr double metres_per_km = 1000;
+    all.planet_radius = metres_per_km * schedule.recipe.radius_km;
+  }
   return all;
 }
 

@@ -169,6 +169,8 @@ std::vector<std::string> dropped_fields(const MeshFile& file, Format format, boo
 WrittenFields write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
+  if (!options.planet_radius)
+    resolved.planet_radius = file.planet_radius;
   resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
   WrittenFields written;
   if (info_of(resolved.format).netcdf)

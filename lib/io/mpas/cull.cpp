@@ -224,7 +224,7 @@ CullReport cull(const std::string& source_path, const std::string& target,
   add_radius(source, radius, subset);
   report.vertex_order = options.vertex_order.value_or(source.vertex_order());
   add_vertex_order(source, part, report.vertex_order, subset);
-  set_sphere(radius, subset);
+  set_sphere(source, radius, subset);
   subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
   report.sphere_radius = radius;

@@ -84,8 +84,8 @@ void add_density(const MpasSource& source, const MpasPart& part, double radius,
 
 // ---- The file
 
-void add_attributes(double radius, NetcdfSubset& subset) {
-  set_sphere(radius, subset);
+void add_attributes(const MpasSource& source, double radius, NetcdfSubset& subset) {
+  set_sphere(source, radius, subset);
   subset.attributes["is_periodic"] = {"is_periodic", std::string("NO")};
   subset.attributes["mesh_spec"] = {"mesh_spec", std::string("1.1")};
 }
@@ -130,7 +130,7 @@ CutReport cut(const std::string& path, const std::string& target,
   add_radius(source, radius, subset);
   add_vertex_order(source, part, order, subset);
   add_density(source, part, radius, subset);
-  add_attributes(radius, subset);
+  add_attributes(source, radius, subset);
   subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
   CutReport report = make_report(part, masks, options.rings);

@@ -177,9 +177,11 @@ NetcdfSubset make_subset(const MpasSource& source, const MpasPart& part) {
   return subset;
 }
 
-void set_sphere(double radius, NetcdfSubset& subset) {
+void set_sphere(const MpasSource& source, double radius, NetcdfSubset& subset) {
   subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
   subset.attributes["sphere_radius"] = {"sphere_radius", radius};
+  if (radius == 1 && source.radius() != 1)
+    subset.attributes[planet_attribute] = {planet_attribute, source.radius()};
 }
 
 void add_radius(const MpasSource& source, double radius, NetcdfSubset& subset) {

@@ -34,7 +34,7 @@ TEST_CASE("a title has the name, the number of cells and the range: in km if the
   CHECK(mesh_title(options, "4 cells", "spacing", lengths) ==
         "ab_2.nc: 4 cells, spacing 1.15\u00b0 to 2.29\u00b0");
   options.name = "a.nc";
-  options.radius_km = 6371.22;
+  options.unit = calotte::unit_of({}, 6371.22);
   CHECK(mesh_title(options, "4 cells", "spacing", lengths) ==
         "a.nc: 4 cells, spacing 127 to 255 km");
   CHECK(mesh_title(options, "4 cells", "spacing", lengths, true) ==

@@ -13,8 +13,8 @@ def counted(number, noun):
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def _range(values, unit=""):
-    return f"{values.min:.4g} to {values.max:.4g}{unit}"
+def _range(values, unit="", scale=1.0):
+    return f"{scale * values.min:.4g} to {scale * values.max:.4g}{unit}"
 
 
 # ---- A line
@@ -53,9 +53,16 @@ def _voronoi(cells):
 
 
 def _quality(quality):
+    unit = vars(quality).get("_unit")
+    spacing = (_range(quality.spacing) if unit is None else
+               _range(quality.spacing, f" {unit.name}", unit.of_radian))
     return (f"<calotte.Quality: {counted(quality.cells, 'cell')}, spacing "
-            f"{_range(quality.spacing)}, {counted(quality.obtuse, 'obtuse triangle')}, "
+            f"{spacing}, {counted(quality.obtuse, 'obtuse triangle')}, "
             f"{counted(quality.short_edges, 'short edge')}, residual {quality.residual:.2g}>")
+
+
+def _unit(unit):
+    return f"<calotte.Unit: {unit.name}, {unit.area}>"
 
 
 def _check(check):
@@ -208,7 +215,7 @@ for _kind, _line in ((_calotte.Mesh, _mesh), (_calotte.Polygons, _polygons),
                      (_calotte.PolygonShapes, _shapes),
                      (_calotte.Voronoi, _voronoi),
                      (_calotte.Locations, _locations), (_calotte.Quality, _quality),
-                     (_calotte.Check, _check),
+                     (_calotte.Check, _check), (_calotte.Unit, _unit),
                      (_calotte.OperatorErrors, _errors), (_calotte.Surface, _surface),
                      (_calotte.CellWidth, _widths),
                      (_calotte.Density, _density), (_calotte.Range, _numbers),

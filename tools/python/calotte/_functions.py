@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments, _calotte, _display
+from . import _arguments, _calotte, _display, _units
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import (Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi)
@@ -157,10 +157,12 @@ def check(mesh: Grid) -> Check:
 
 
 def quality(mesh: Grid, *, surface: SurfaceLike | None = None, density: DensityLike | None = None,
-            cell_width: WidthLike = None) -> Quality:
+            cell_width: WidthLike = None, units: str | None = None) -> Quality:
     """Measures a mesh and its Voronoi cells; see the attributes of Quality.
 
     surface: as for voronoi(). density, cell_width: as for cvt(); dc_over_h and excess use them.
+    units: of the attribute `unit`, in which the result is shown: km, degrees or radians. Default: km
+        where the planet's radius is known, see Mesh.earth_radius, else degrees.
 
     A plane that ends at walls in one direction and is periodic in the other, such as a channel of a
     file, needs no surface: its whole cells are measured.
@@ -169,10 +171,13 @@ def quality(mesh: Grid, *, surface: SurfaceLike | None = None, density: DensityL
     0
     """
     _require_mesh(mesh)
+    unit = _units.unit_of(mesh, units)
     mesh = within(mesh, surface)
     if not mesh.surface.period.any():
         _require_end(mesh)
-    return _calotte.quality(mesh, _density_for(mesh, density, cell_width))
+    found = _calotte.quality(mesh, _density_for(mesh, density, cell_width))
+    found._unit = unit
+    return found
 
 
 def operator_errors(mesh: Grid, *, surface: SurfaceLike | None = None,
@@ -712,6 +717,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     if between is not None:
         cells, cells._content = between
         report["cells"] = cells
+    if cell_width is not None and mesh.surface.is_sphere:
+        mesh._earth_radius = earth_radius
     grid = Cvt(mesh, **report)
     _warn_of_shortfall(grid.converged, grid.cells_beyond_limits)
     if grid.off_boundary:
@@ -818,17 +825,12 @@ class ChangedMesh:
                 f"{', '.join([f'{added} new in {parts}', *short])}>")
 
 
-def _earth_radius(mesh):
-    """km, of the sphere that a mesh is of: that of its file, if this is one in metres."""
-    content = content_of(mesh)
-    metres = 1.0 if content is None else content.sphere_radius
-    return metres / 1000 if metres > 1e5 else EARTH_RADIUS_KM
-
-
 def _demand(mesh, cell_width, region, factor, earth_radius):
     """The widths that cells are to have."""
     demand, plane = _calotte.WidthDemand(), not mesh.surface.is_sphere
-    demand.radius_km = _earth_radius(mesh) if earth_radius is None else earth_radius
+    if earth_radius is None:
+        earth_radius = _units.radius_of(mesh) or EARTH_RADIUS_KM
+    demand.radius_km = earth_radius
     if (region is None) != (factor is None):
         raise Error("region and factor belong together; give both, or cell_width")
     if region is not None:
@@ -869,7 +871,7 @@ def _methods(nearest, conservative, content):
 
 
 def _changed(change, mesh, demand, surface, nearest, conservative, progress, **fields):
-    content = content_of(mesh)
+    content, planet = content_of(mesh), _units.radius_of(mesh)
     _require_cells(mesh, content)
     mesh = within(mesh, surface)
     options = _calotte.RefineOptions()
@@ -878,6 +880,7 @@ def _changed(change, mesh, demand, surface, nearest, conservative, progress, **f
     made, made_content, values = change(mesh, content, demand, options,
                                         _methods(nearest, conservative, content),
                                         _reporting(progress))
+    made._earth_radius = planet
     if made_content is not None:
         made._content = made_content
     made._order = "input"  # of written files: the cells that stayed come first
@@ -934,7 +937,7 @@ def refine(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | No
     regions: parts that run in parallel; no effect on the result.
     progress: a function that receives a dict after each iteration of a patch, whose True raises Error
         of the code "cancelled"; or True for a bar of tqdm.
-    earth_radius: km, that the widths refer to. Default: that of the mesh's file in metres, or 6371.
+    earth_radius: km, that the widths refer to. Default: that of the mesh, or 6371.
     Returns a ChangedMesh. A patch that does not converge is no error. Raises Error.
 
     >>> base = cvt(2562).mesh
@@ -1197,7 +1200,8 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
     output = _calotte.Output(str(path), format, sphere_radius,
                              _density_for(mesh, density, cell_width),
                              density is not None or cell_width is not None, values, history,
-                             vars(mesh).get("_order") if order is None else order, model)
+                             vars(mesh).get("_order") if order is None else order, model,
+                             _units.radius_of(mesh))
     content = content_of(mesh)
     mesh = within(mesh, surface)
     if content is not None:
@@ -1263,7 +1267,8 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
     grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
     density = _arguments.density(None, widths._field(grid.mesh.surface))
-    output = _calotte.Output(str(path), "mpas", sphere_radius, density, True, {}, "", None, None)
+    output = _calotte.Output(str(path), "mpas", sphere_radius, density, True, {}, "", None, None,
+                             earth_radius)
     return _calotte.write_limited_area(output, grid.mesh, surface)
 
 

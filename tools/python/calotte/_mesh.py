@@ -7,7 +7,7 @@ import types
 
 import numpy as np
 
-from . import _arguments, _calotte, _functions, _plot
+from . import _arguments, _calotte, _functions, _plot, _units
 
 
 def _cells(mesh):
@@ -20,6 +20,29 @@ def _fields(grid):
     """The file's numbers at cells by name, each n or n x further dimensions, in the file's units."""
     content = _functions.content_of(grid)
     return types.MappingProxyType({} if content is None else content.fields)
+
+
+def _earth_radius(grid):
+    """Radius of the planet that the cells are of, km: of the widths, the file or its model; or None."""
+    return _units.radius_of(grid)
+
+
+def _unit(quality):
+    """The Unit in which lengths and areas are shown; None in a plane."""
+    return vars(quality).get("_unit")
+
+
+# A pickled Quality keeps its unit.
+_measures_of, _take_measures = _calotte.Quality.__getstate__, _calotte.Quality.__setstate__
+
+
+def _state_of(quality):
+    return _measures_of(quality), vars(quality)
+
+
+def _take_state(quality, state):
+    _take_measures(quality, state[0])
+    vars(quality).update(state[1])
 
 
 def _not_voronoi(cells):
@@ -100,9 +123,12 @@ _calotte.OperatorErrors.diffusion_step = _diffusion_step
 _calotte.Surface.contains = _contains
 for _class in (_calotte.Mesh, _calotte.Polygons):
     _class.fields = property(_fields, doc=_fields.__doc__)
+    _class.earth_radius = property(_earth_radius, doc=_earth_radius.__doc__)
     _class.to_mpas = _to_mpas
     _class.to_xarray = _to_xarray
     _class.plot = _plot.plot
     _class.topology = _topology
+_calotte.Quality.unit = property(_unit, doc=_unit.__doc__)
+_calotte.Quality.__getstate__, _calotte.Quality.__setstate__ = _state_of, _take_state
 _calotte.Mesh.cells = property(_cells, doc=_cells.__doc__)
 _calotte.Polygons.not_voronoi = property(_not_voronoi, doc=_not_voronoi.__doc__)

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _arguments, _calotte, _display, _functions
-from ._arguments import EARTH_RADIUS_KM
+from . import _arguments, _calotte, _display, _functions, _units
 from ._calotte import Error
 
 _DEGREES = 180 / np.pi
@@ -114,13 +113,15 @@ def _areas(begin, ids, corners, spherical):
 
 # ---- Values
 
-def _values(grid, field, areas, spherical, earth_radius):
+def _values(grid, field, areas, unit):
     """Numbers by cell, and their name."""
     if field is None or (isinstance(field, str) and field in ("width", "area")):
-        scale = earth_radius if spherical else 1
         if field == "area":
-            return areas * scale**2, "cell area" + (", km^2" if spherical else "")
-        return np.sqrt(2 / np.sqrt(3) * areas) * scale, "cell width" + (", km" if spherical else "")
+            return (areas, "cell area") if unit is None else (
+                areas * unit.of_steradian, f"cell area, {unit.area}")
+        widths = np.sqrt(2 / np.sqrt(3) * areas)
+        return (widths, "cell width") if unit is None else (
+            widths * unit.of_radian, f"cell width, {unit.name}")
     name = field if isinstance(field, str) else ""
     if name:
         if name not in grid.fields:
@@ -299,7 +300,7 @@ def _new_axes(projection):
 
 def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, surface=None,
          cmap=None, vmin=None, vmax=None, edgecolor=None, linewidth=0.2, colorbar=True, label=None,
-         earth_radius=EARTH_RADIUS_KM):
+         units=None, earth_radius=None):
     """Draws the cells, coloured by a field. Returns the axes of matplotlib, which it needs.
 
     field: "width" (default: distance between the centres of hexagons of a cell's area), "area",
@@ -312,7 +313,9 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, s
     surface: as for voronoi().
     cmap, vmin, vmax: as in matplotlib. edgecolor, linewidth: of the cells' sides.
     colorbar: whether there is one. label: its name; default that of the field.
-    earth_radius: km, for widths and areas on the sphere.
+    units: of widths and areas on the sphere: km (default where the planet's radius is known, see
+        Mesh.earth_radius), degrees (otherwise; areas in steradians) or radians.
+    earth_radius: of the planet, km. Default: that of the mesh.
     An open mesh without the cells of a file shows the cells that triangles surround.
 
     >>> axes = delaunay(fibonacci_sphere(500)).plot(view=(0, 40))  # doctest: +SKIP
@@ -325,7 +328,7 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, s
     if not len(ids):
         raise Error("the mesh has no whole cell to draw")
     areas = _areas(begin, ids, corners, spherical)
-    values, name = _values(self, field, areas, spherical, earth_radius)
+    values, name = _values(self, field, areas, _units.unit_of(self, units, earth_radius))
     if ax is None:
         ax = _new_axes(projection)
     picture = _picture(begin, ids, corners, areas, spherical, getattr(ax, "projection", None), view)

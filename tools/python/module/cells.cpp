@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace calotte::python {
 namespace {
@@ -29,13 +31,26 @@ void add_ranges(py::module_& module) {
               Member{"max", &Percentiles::max, "The greatest value."});
 }
 
+void add_unit(py::module_& module) {
+  py::class_<Unit> unit(module, "Unit", "A unit in which people read lengths and areas.");
+  add_members(unit, Member{"name", &Unit::name, "Of lengths: km, degrees or radians."},
+              Member{"of_radian", &Unit::of_radian, "The value of one radian."},
+              Member{"area", &Unit::area, "Of areas: km^2 or steradians."},
+              Member{"of_steradian", &Unit::of_steradian, "The value of one steradian."});
+  module.def("unit_of",
+             [](const std::optional<std::string>& units, std::optional<double> radius_km) {
+               return call([&] { return unit_of(units, radius_km); });
+             });
+}
+
 void add_quality(py::module_& module) {
   py::class_<Quality> quality(
       module, "Quality",
       "Measures of a mesh and its Voronoi cells, of quality().\n\n"
       "Lengths are radians and areas steradians of the unit sphere; in the plane they are in the\n"
       "unit of the points and its square. Of an open mesh, cells count where triangles surround\n"
-      "them.");
+      "them.",
+      py::dynamic_attr());
   add_members(
       quality, Member{"cells", &Quality::cells, "Number of cells."},
       Member{"triangles", &Quality::triangles, "Number of triangles."},
@@ -147,6 +162,7 @@ Quality quality_of(const Mesh& mesh, const Density& density) {
 void add_cells(py::module_& module) {
   add_voronoi(module);
   add_ranges(module);
+  add_unit(module);
   add_quality(module);
   module.def("quality", [](const Mesh& mesh, const Density& density) {
     return call([&] { return quality_of(mesh, density); });

@@ -90,7 +90,8 @@ py::tuple state_of_content(const MeshFile& content) {
   }
   return py::make_tuple(content.format, polygons_of(std::make_shared<MeshFile>(content)),
                         state_of_answer(content.not_voronoi), content.sphere_radius,
-                        content.density, fields, static_cast<int>(content.vertex_order));
+                        content.density, fields, static_cast<int>(content.vertex_order),
+                        content.planet_radius);
 }
 
 MeshField field_of(const py::tuple& state) {
@@ -121,6 +122,7 @@ Content content_of_state(const py::tuple& state) {
   for (const py::handle field : state[5])
     content->fields.push_back(field_of(py::reinterpret_borrow<py::tuple>(field)));
   content->vertex_order = static_cast<VertexOrder>(state[6].cast<int>());
+  content->planet_radius = state[7].cast<std::optional<double>>();
   return content;
 }
 
@@ -211,7 +213,7 @@ void add_content(py::module_& module) {
       .def_readonly("format", &MeshFile::format)
       .def_property_readonly("not_voronoi",
                              [](const MeshFile& file) { return file.not_voronoi.text(); })
-      .def_readonly("sphere_radius", &MeshFile::sphere_radius)
+      .def_readonly("planet_radius", &MeshFile::planet_radius)
       .def_readonly("changes", &MeshFile::changes)
       .def_property_readonly(
           "density",
@@ -228,6 +230,7 @@ struct Output {
   py::dict fields;
   Numbering numbering = Numbering::by_format;
   std::optional<std::string> model; ///< that reads the file
+  std::optional<double> planet;     ///< its radius in km; default: the model's
 };
 
 /// Sets what a model expects of its files. \param format of the file. \param radius stays, if it is
@@ -269,7 +272,10 @@ WriteOptions options_of(const Output& output) {
         set_model(*output.model, format_of(output.path, output.format), output.radius, options);
     if (output.numbering == Numbering::by_format)
       options.numbering = model.numbering;
+    options.planet_radius = model.planet_radius;
   }
+  if (output.planet)
+    options.planet_radius = 1000 * *output.planet;
   options.density = output.density;
   options.history = output.history;
   for (const auto& [name, values] : output.fields) {
@@ -293,18 +299,13 @@ void write_mesh(const Mesh& mesh, const Output& output) {
   });
 }
 
-/// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
-double radius_in_metres(double radius) {
-  return radius > 6300 && radius < 6400 ? 1000 * radius : radius;
-}
-
 /// Writes what was read. \returns the names of the fields that the format does not hold.
 std::vector<std::string> write_content(const MeshFile& content, const py::object& grid,
                                        const Output& output) {
   const MeshFile file = whole(content, grid);
   WriteOptions options = options_of(output);
   if (!output.radius && !output.model)
-    options.sphere_radius = radius_in_metres(file.sphere_radius);
+    options.sphere_radius = file.radius_in_metres();
   if (!output.model)
     options.vertex_order = file.vertex_order;
   return call([&] {
@@ -471,12 +472,13 @@ Format format_named(const std::string& name) {
 
 Output output_of(std::string path, const std::string& format, std::optional<double> radius,
                  Density density, bool known, py::dict fields, std::string history,
-                 const std::optional<std::string>& order, std::optional<std::string> model) {
+                 const std::optional<std::string>& order, std::optional<std::string> model,
+                 std::optional<double> planet) {
   return {std::move(path),      std::move(history),
           format_named(format), radius,
           std::move(density),   known,
           std::move(fields),    order ? numbering_named(*order) : Numbering::by_format,
-          std::move(model)};
+          std::move(model),     planet};
 }
 
 } // namespace
