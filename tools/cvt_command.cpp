@@ -23,6 +23,7 @@
 #include <calotte/checkpoint.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/quality.h>
 #include <calotte/read.h>
 #include <calotte/version.h>
 #include <calotte/write.h>
@@ -80,7 +81,8 @@ struct CvtOutcome {
   CvtReport report;
   Mesh mesh; ///< empty after it is written
   std::int64_t cells = 0;
-  std::string grid;           ///< a line about the part of the mesh that is written, or ""
+  Quality shapes;             ///< of the mesh, where no polish ended the run
+  std::string grid;           ///< the cells of the file, in words
   std::string worst_position; ///< of the cell of the worst shape: " (at ...)", or ""
   double area = 0;            ///< of the surface
   int signal = 0;             ///< the signal that ended it early
@@ -136,6 +138,7 @@ Run prepare(const CvtRequest& request, Progress& progress) {
   require_used(request, run.schedule);
   run.input.recipe.start.points.resize(3, 0); // the schedule has them, and the density
   run.input.recipe.resolution = {};
+  run.input.rules.widths = Widths::no_demand;
   const Recipe& recipe = run.schedule.recipe;
   require_space(request.mesh, file_bytes(format, recipe.cells, run.schedule.density.uniform()));
   run.configuration = configuration_of(request, run.input, run.schedule);
@@ -180,6 +183,8 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
       Cvt grid = make_grid(run.schedule, std::move(options));
       outcome.mesh = std::move(grid.mesh);
       outcome.report = std::move(grid.report);
+      if (!*run.schedule.recipe.stop.well_centred && outcome.report.converged)
+        outcome.shapes = measure_shapes(outcome.mesh);
     });
   } catch (const Error& error) {
     rethrow_with_line(error, run.input);
@@ -271,15 +276,15 @@ GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
   }
 }
 
-/// A line about a file that holds a part of the mesh; "" for others.
-std::string part_line(const std::string& path, const Recipe& asked, const GridFile& file) {
+/// "10 242 cells", and which part of the mesh they are.
+std::string describe_cells(const Recipe& asked, const GridFile& file) {
+  const std::string cells = spaced(file.cells) + " cells";
   if (asked.limited_area)
-    return message("{}: {} cells, {} in the region and {} in the rings around it\n", path,
-                   file.cells, file.inside, file.cells - file.inside);
+    return message("{}, {} in the region and {} in the rings around it", cells, spaced(file.inside),
+                   spaced(file.cells - file.inside));
   if (asked.walls.x || asked.walls.y)
-    return message("{}: {} cells, {}; the others fill the gap beyond the walls\n", path, file.cells,
-                   kind_of_plane(file.period));
-  return "";
+    return message("{}, {}", cells, kind_of_plane(file.period));
+  return cells;
 }
 
 void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome,
@@ -289,7 +294,7 @@ void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome
   WriteOptions options = write_options(request);
   options.history = history_of(request, made.stop, run.configuration, outcome.report);
   outcome.grid =
-      part_line(request.mesh, run.input.recipe, write_file_of(request, run, outcome.mesh, options));
+      describe_cells(run.input.recipe, write_file_of(request, run, outcome.mesh, options));
   if (!request.report.empty())
     write_file(request.report, to_json(request, run.schedule, outcome.report, outcome.cells,
                                        outcome.area, outcome.threads, outcome.states));
@@ -356,10 +361,14 @@ void run(CvtRequest request) {
   const CvtStop& stop = schedule.recipe.stop;
   if (outcome.signal != 0)
     finish_interrupted(request, outcome);
-  std::cout << summary(request, stop, outcome.report, outcome.cells,
-                       planar(request) ? outcome.area : 1,
-                       static_cast<std::int64_t>(outcome.before)) +
-                   "\n" + outcome.grid + models_of(request);
+  std::cout << message(
+                   "{}: {}, {}{}\n", request.mesh, outcome.grid,
+                   verdict(stop, outcome.report, outcome.shapes),
+                   outcome.before > 0
+                       ? message(", resumed after {}",
+                                 counted(static_cast<std::int64_t>(outcome.before), "iteration"))
+                       : "") +
+                   models_of(request);
   warn_of_result(request, schedule, outcome);
   if (!outcome.report.converged)
     finish_not_converged(request, stop, outcome.report);

@@ -204,30 +204,39 @@ std::string describe_change(const RefineRequest& request, const std::vector<std:
                      kept = (changed.new_of_old.array() >= 0).count(),
                      added = (changed.old_of_new.array() < 0).count();
   const double percent = 100.0 * static_cast<double>(kept) / static_cast<double>(cells);
-  return lines + message("{}: {} cells, {} of {} kept ({}%), {} new in {} {}\n", request.output,
-                         changed.mesh.points.cols(), kept, cells, formatted("%.2f", percent), added,
-                         changed.patches.size(), changed.patches.size() == 1 ? "patch" : "patches");
+  return lines + message("{}: {} cells, {} of {} kept ({}%), {} new in {} {}", request.output,
+                         spaced(changed.mesh.points.cols()), spaced(kept), spaced(cells),
+                         formatted("%.2f", percent), spaced(added), changed.patches.size(),
+                         changed.patches.size() == 1 ? "patch" : "patches");
 }
 
-/// A line about what falls short, with its exit code.
-void judge(const RefineRequest& request, const ChangedMesh& changed) {
+/// What falls short, with its remedies, and the exit code.
+struct Verdict {
+  std::vector<std::string> faults;
+  ExitCode code = done;
+};
+
+Verdict verdict(const RefineRequest& request, const ChangedMesh& changed) {
   const Totals totals(changed.patches);
-  const auto say = [&](const std::string& text) {
-    complain(message("{}: {}", request.output, text));
-  };
+  Verdict found;
   if (changed.held > 0)
-    say(message("{} cells stay {} than demanded, because they are at the boundary or next to it",
+    found.faults.push_back(
+        message("{} cells stay {} than demanded, because they are at the boundary or next to it",
                 changed.held, request.verb->left));
   if (changed.missed > 0)
-    say(message(request.verb->missed, changed.missed));
+    found.faults.push_back(message(request.verb->missed, changed.missed));
   if (!totals.converged)
-    say("not converged");
-  if (!totals.well_centred)
-    say(message("not well-centred: {} cells are beyond the limits of shapes", totals.beyond));
-  if (changed.held > 0 || changed.missed > 0 || !totals.converged)
-    finish(not_converged);
-  if (!totals.well_centred)
-    finish(not_well_centred);
+    found.faults.emplace_back("not converged; give a smaller --gradient");
+  if (!found.faults.empty())
+    found.code = not_converged;
+  if (totals.well_centred)
+    return found;
+  found.faults.push_back(message("not well-centred: {} with shapes beyond the limits of models; "
+                                 "give a smaller --gradient",
+                                 counted(totals.beyond, "cell")));
+  if (found.code == done)
+    found.code = not_well_centred;
+  return found;
 }
 
 void run(const RefineRequest& request) {
@@ -267,8 +276,13 @@ void run(const RefineRequest& request) {
     if (!request.report.empty())
       write_file(request.report, to_json(changed, read, change, write));
   }
-  std::cout << words << std::flush;
-  judge(request, changed);
+  const Verdict found = verdict(request, changed);
+  std::cout << words
+            << (found.code != done        ? "\n"
+                : changed.patches.empty() ? "; the demand is met\n"
+                                          : ", all new shapes within the limits of models\n");
+  if (found.code != done)
+    finish(found.code, message("{}: {}", request.output, listed(found.faults, "; and ", "; ")));
 }
 
 void add(CLI::App& app, const Verb& verb) {

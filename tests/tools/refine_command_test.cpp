@@ -23,7 +23,7 @@ TEST_CASE("refine and coarsen keep the cells beside the part that they change") 
       "--cell-map .");
   CAPTURE(finer.err);
   REQUIRE(finer.code == 0);
-  CHECK(has(finer.out, " new in 1 patch\n"));
+  CHECK(has(finer.out, " new in 1 patch, all new shapes within the limits of models\n"));
   const auto report = nlohmann::json::parse(bench.file("r.json"));
   const auto kept = report["kept"].get<Eigen::Index>();
   CHECK(report["held"] == 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_report.h"
 
+#include "options/sphere_radius_option.h"
 #include "run/cvt_actions.h"
 #include "run/memory_use.h"
 #include "text/text.h"
@@ -8,6 +9,8 @@
 #include <calotte/version.h>
 
 #include <nlohmann/json.hpp>
+
+#include <optional>
 
 namespace calotte::tools {
 namespace {
@@ -63,6 +66,20 @@ template <class List> Json array_of(const List& list) {
   return array;
 }
 
+/// The radius of the planet whose grid a file of the run is, if that is known.
+std::optional<double> radius_km(const CvtRequest& request, const Schedule& schedule) {
+  if (planar(request))
+    return std::nullopt;
+  if (schedule.widths)
+    return schedule.recipe.radius_km;
+  const WriteOptions output = write_options(request);
+  const double metres =
+      output.sphere_radius != 1 ? output.sphere_radius : output.planet_radius.value_or(0);
+  return metres > 0 ? std::optional(metres / metres_per_km) : std::nullopt;
+}
+
+constexpr const char* within_limits = "all shapes within the limits of models";
+
 } // namespace
 
 std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
@@ -88,6 +105,10 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
   json["residual"] = report.residual;
   json["cells"] = cells;
   json["area"] = area;
+  if (const std::optional<double> radius = radius_km(request, schedule)) {
+    json["radius_km"] = *radius;
+    json["area_km2"] = area * *radius * *radius;
+  }
   json["threads"] = threads;
   json["seconds"] = report.seconds;
   json["memory"] = memory_use();
@@ -104,30 +125,25 @@ std::string residual_words(const CvtRequest& request, const CvtReport& report) {
                             : message("{} {}", request.norm, formatted("%.3g", report.residual));
 }
 
-std::string summary(const CvtRequest& request, const CvtStop& stop, const CvtReport& report,
-                    std::int64_t cells, double area, std::int64_t before) {
-  const char* const end = request.iterations    ? ""
-                          : !report.converged   ? "not converged, "
-                          : report.well_centred ? "well-centred, "
-                          : *stop.well_centred  ? "not well-centred, "
-                                                : "converged, ";
-  std::string line = message("{}: {} cells, {}{}", request.mesh, cells, end,
-                             counted(std::ssize(report.iterations), "iteration"));
-  if (before > 0)
-    line += message(" ({} before it was resumed)", before);
-  if (const std::string residual = residual_words(request, report); !residual.empty())
-    line += ", " + residual;
-  if (!report.iterations.empty()) {
-    const CvtIteration& last = report.iterations.back();
-    line +=
-        message(", energy x cells {}{}", planar(request) ? "/ area^2 " : "",
-                formatted("%.7g", last.energy * static_cast<double>(last.cells) / (area * area)));
-    if (last.off_centroid > 0)
-      line +=
-          message(", {} generators more than 0.01 of the spacing from their centroids (at most {})",
-                  last.off_centroid, formatted("%.2g", last.largest_offset));
-  }
-  return line + formatted(", %.2f s", report.seconds);
+Quality measure_shapes(const Mesh& mesh) {
+  return mesh.surface.is_sphere() ? open_quality(mesh) : quality(mesh);
+}
+
+std::string verdict(const CvtStop& stop, const CvtReport& report, const Quality& shapes) {
+  if (!report.converged)
+    return "not converged";
+  if (*stop.well_centred)
+    return report.well_centred ? within_limits : "not well-centred";
+  std::vector<std::string> faults;
+  if (shapes.obtuse > 0)
+    faults.push_back(counted(shapes.obtuse, "obtuse triangle"));
+  if (shapes.short_edges > 0)
+    faults.push_back(message("{} below {} times the Delaunay edge",
+                             counted(shapes.short_edges, "Voronoi edge"), short_voronoi_edge));
+  if (faults.empty())
+    return within_limits;
+  return message("{}, to which models object; give --stop well-centred",
+                 listed(faults, " and ", " and "));
 }
 
 } // namespace calotte::tools

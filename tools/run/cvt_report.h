@@ -5,6 +5,7 @@
 #include "run/kept_states.h"
 
 #include <calotte/grid.h>
+#include <calotte/quality.h>
 
 #include <string>
 #include <vector>
@@ -19,11 +20,13 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
                     std::int64_t cells, double area, int threads,
                     const std::vector<KeptState>& states);
 
-/// One line without a line end.
-/// \param before iterations of the earlier parts of a resumed run.
-/// \param area area of a planar domain, by whose square the energy is divided; 1 for the sphere.
-std::string summary(const CvtRequest& request, const CvtStop& stop, const CvtReport& report,
-                    std::int64_t cells, double area, std::int64_t before);
+/// Measures the shapes of a run's mesh. \param mesh with the run's surface.
+Quality measure_shapes(const Mesh& mesh);
+
+/// Whether a run's grid is good, a clause: "all shapes within the limits of models", or what is not
+/// and what to do.
+/// \param shapes as measured; of a run that did not end with a polish.
+std::string verdict(const CvtStop& stop, const CvtReport& report, const Quality& shapes);
 
 /// "l2-scaled 1.2e-05", or "" for a run of a number of iterations.
 std::string residual_words(const CvtRequest& request, const CvtReport& report);

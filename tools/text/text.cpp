@@ -19,6 +19,14 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
+std::string spaced(std::int64_t count) {
+  std::string digits = std::to_string(count);
+  if (digits.size() > 4)
+    for (std::size_t at = digits.size(); at > 3;)
+      digits.insert(at -= 3, " ");
+  return digits;
+}
+
 std::string row(std::string name, std::size_t column, const std::string& value) {
   name.resize(std::max(name.size(), column), ' ');
   return message("{}{}\n", name, value);

@@ -6,6 +6,7 @@
 #include "io/bytes/file_error.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ std::string shortest(double value);
 /// Formats a number as printf does; at most 63 characters.
 /// \param format with one conversion of a double.
 std::string formatted(const char* format, double value);
+
+/// "2562", "10 242": a count for people, its digits in groups of three from five digits on.
+std::string spaced(std::int64_t count);
 
 /// A line of a table: the name, blanks up to a column, and the value.
 std::string row(std::string name, std::size_t column, const std::string& value);
