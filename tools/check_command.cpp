@@ -12,11 +12,11 @@
 
 #include <CLI/App.hpp>
 
-#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -92,26 +92,38 @@ std::string table(const Findings& found, bool plane) {
 
 /// \param found the shapes of the file's polygons.
 std::string table(const PolygonShapes& found, const MeshFile& file) {
+  const bool part = file.not_voronoi.passed(); // a boundary may cut its cells
   std::ostringstream out;
   out << "cells           " << file.polygons->size() << "\n"
       << "corners         " << file.polygons->corners.cols() << "\n"
-      << "Voronoi         no: " << file.not_voronoi.text() << "\n";
+      << "Voronoi         "
+      << (part ? "yes, inside the boundary" : "no: " + file.not_voronoi.text()) << "\n";
+  if (part)
+    return out.str();
   const bool open = !file.sphere() || !file.mesh->closed(); // its edges are counted with the mesh
   return out.str() + shape_rows(found, open ? std::nullopt : file.mesh, 16);
 }
 
 /// Why deviations make the check fail; empty if they do not.
 std::string failure_of(const std::vector<Deviation>& deviations) {
-  const auto count = std::count_if(deviations.begin(), deviations.end(),
-                                   [](const Deviation& deviation) { return !deviation.known; });
-  if (count == 0)
+  std::set<std::string> variables;
+  for (const Deviation& deviation : deviations)
+    if (!deviation.known)
+      variables.insert(deviation.variable);
+  if (variables.empty())
     return "";
-  return message("{} {} from the mesh or the format", counted(count, "variable"),
-                 count == 1 ? "deviates" : "deviate");
+  return message("{} {} from the mesh or the format: {}",
+                 counted(std::ssize(variables), "variable"),
+                 variables.size() == 1 ? "deviates" : "deviate", listed(variables));
 }
 
 void run_check(const MeshSource& source) {
-  std::string text, failure;
+  std::string text;
+  std::vector<std::string> failures;
+  const auto add = [&failures](std::string failure) {
+    if (!failure.empty())
+      failures.push_back(std::move(failure));
+  };
   {
     Progress progress;
     progress.stage("reading " + source.path);
@@ -125,23 +137,22 @@ void run_check(const MeshSource& source) {
     if (own_triangles) {
       const Findings found = findings_of(*file.mesh);
       text += table(found, plane != nullptr);
-      failure = found.failure;
+      add(found.failure);
     }
     if (file.polygons) {
       const PolygonShapes found = shapes(*file.polygons);
       text += table(found, file);
-      if (failure.empty())
-        failure = without_area(found);
+      add(without_area(found));
     }
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
     for (const Deviation& deviation : deviations)
       text += deviation.text + "\n";
-    if (failure.empty())
-      failure = failure_of(deviations);
+    add(failure_of(deviations));
   }
   std::cout << text;
-  if (!failure.empty())
-    finish(check_failed, message("{}: {}", source.path, failure));
+  if (!failures.empty())
+    finish(check_failed, message("{}: failed: {}", source.path, listed(failures, "; ", "; ")));
+  std::cout << source.path << ": passed\n";
 }
 
 } // namespace
