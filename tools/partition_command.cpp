@@ -235,6 +235,7 @@ PartitionOutcome partition_file(const PartitionRequest& request,
 
 void run(const PartitionRequest& request) {
   const std::vector<PartCounts> asked = part_counts(request.parts);
+  require_input(request.mesh); // before what is named after it
   require_files(request, {asked.front().first});
   const PartitionOutcome outcome = partition_file(request, asked);
   std::cout << describe_components(request, outcome);

@@ -276,6 +276,7 @@ absent.nc 4 | 3 | cannot read absent.nc: No such file or directory
 global.nc 4 -o absent/parts | 3 | cannot write absent/parts.part.4: the folder absent does not exist
 global.nc 4 5 -o folder | 3 | cannot write folder.part.5: it is a folder; give the name of a file
 global.nc 4 --report global.nc | 2 | global.nc is both input and output; give the output another name
+nowhere/global.nc 4 | 3 | cannot read nowhere/global.nc: No such file or directory
 global.nc 4 --report global.graph.info.part.4 | 2 | global.graph.info.part.4 is both report and 4 parts
 )");
 }

@@ -38,6 +38,20 @@ void require_distinct(const std::string& output, const std::string& input) {
 
 namespace {
 
+[[noreturn]] void fail_input(const std::string& path) {
+  fail_read(path, message("{}; check its name and its permissions",
+                          std::generic_category().message(errno)));
+}
+
+} // namespace
+
+void require_input(const std::string& path) {
+  if (::access(path.c_str(), R_OK) != 0)
+    fail_input(path);
+}
+
+namespace {
+
 /// Adds the files that inputs of rules name.
 std::vector<std::string> with_named(const std::vector<std::string>& inputs) {
   std::vector<std::string> all = inputs;
@@ -89,8 +103,7 @@ std::string checksum_of(const std::string& path) {
     size += in.gcount();
   }
   if (in.bad() || !in.eof())
-    fail_read(path, message("{}; check its name and its permissions",
-                            std::generic_category().message(errno)));
+    fail_input(path);
   return message("{} bytes with checksum {}", size, checksum.checksum());
 }
 

@@ -16,6 +16,10 @@ void require_folder(const std::string& path);
 /// \throws Error invalid_argument.
 void require_distinct(const std::string& output, const std::string& input);
 
+/// Throws for an input that cannot be read, before what is named after it is validated.
+/// \throws Error file.
+void require_input(const std::string& path);
+
 /// A file that a command writes, and its name in messages.
 struct Output {
   std::string what, path;
