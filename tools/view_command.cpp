@@ -10,6 +10,7 @@
 #include "options/numbers.h"
 #include "options/sphere_radius_option.h"
 #include "options/units_option.h"
+#include "run/cvt_input.h"
 #include "run/progress.h"
 #include "run/spacing_survey.h"
 #include "text/text.h"
@@ -63,11 +64,10 @@ void require_request(const ViewRequest& request) {
   if (request.plan == !request.source->path.empty())
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
                         : "give a mesh, or --plan and the widths of a grid");
-  if (request.plan &&
-      (!request.fields.empty() || !request.report.empty() || request.units || request.operators ||
-       request.source->plane || !request.source->points.empty()))
-    refuse("--plan shows widths on the sphere; leave out --field, --history, --operators, --units, "
-           "--plane and --points");
+  if (request.plan && (!request.fields.empty() || !request.report.empty() || request.operators ||
+                       request.source->plane || !request.source->points.empty()))
+    refuse("--plan shows widths on the sphere; leave out --field, --history, --operators, --plane "
+           "and --points");
   if (request.plan && request.sphere_radius && request.density->widths.in_km())
     refuse("widths in km refer to --earth-radius; give it in place of --sphere-radius");
   if (!request.plan && request.cells)
@@ -76,6 +76,8 @@ void require_request(const ViewRequest& request) {
     refuse("a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
   require_sphere_radius(request.sphere_radius.value_or(1));
   const WidthWords& widths = request.density->widths;
+  if (!request.plan)
+    require_input(request.source->path); // before the page, which may be named after it
   require_outputs({{"page", output_of(request)}},
                   {request.source->path, request.source->points, request.other, request.report,
                    widths.file, widths.raster, request.domain->file.value_or("")});
@@ -148,18 +150,23 @@ ViewPage view_of_meshes(const ViewRequest& request, Progress& progress) {
 }
 
 ViewPage view_of_plan(const ViewRequest& request) {
-  const WidthWords& widths = request.density->widths;
-  const DensityOfWidths resolution = sampled(*request.density);
-  ViewPage view;
-  view.title = "plan: " + density_name(*request.density);
+  const WidthWords& words = request.density->widths;
+  const GridInput input = read_grid(*request.density, {}, request.cells);
+  const Schedule schedule = plan(input.recipe);
   std::optional<double> radius =
       request.sphere_radius ? std::optional(*request.sphere_radius / metres_per_km) : std::nullopt;
-  if (widths.in_km())
-    radius = widths.radius;
-  const double unit = resolution.widths && !request.cells
-                          ? resolution.widths->least() / widths.radius
-                          : survey_spacing(resolution.density, *request.cells).unit;
-  view.meshes.push_back(view_plan(view.title, resolution.density, unit, radius));
+  if (words.in_km())
+    radius = words.radius;
+  const double unit = schedule.widths && !request.cells
+                          ? schedule.widths->least() / words.radius
+                          : survey_spacing(schedule.density, schedule.recipe.cells).unit;
+  ViewPage view;
+  view.title = message("plan of {} cells: {}", spaced(schedule.recipe.cells),
+                       density_name(*request.density));
+  view.meshes.push_back(
+      view_plan(view.title, schedule.density, unit, unit_of(request.units, radius)));
+  view.meshes.back().radius_km = radius;
+  view.meshes.back().planned = schedule.recipe.cells;
   view.coastlines = shows_coastlines(request.coastlines, radius);
   return view;
 }
@@ -180,8 +187,10 @@ std::string summary(const ViewPage& view) {
   std::string text;
   for (std::size_t k = 0; k < view.side_by_side; ++k) {
     const ViewMesh& mesh = view.meshes[k];
-    text += message("{}{}{} cells", k > 0 ? " and " : "", mesh.cells,
-                    mesh.cells < mesh.total ? message(" of {}", mesh.total) : "");
+    text += mesh.planned > 0
+                ? message("a plan of {} cells", spaced(mesh.planned))
+                : message("{}{}{} cells", k > 0 ? " and " : "", mesh.cells,
+                          mesh.cells < mesh.total ? message(" of {}", mesh.total) : "");
   }
   if (!view.states.empty())
     text += message(", {} states", view.states.size());
@@ -224,7 +233,8 @@ void add_content(CLI::App& command, ViewRequest& request) {
       ->capture_default_str();
   add_sphere_radius(command, request.sphere_radius,
                     "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
-                    "default: the one in a NetCDF file, or --earth-radius with --cell-width");
+                    "default: the planet's that the file names, or --earth-radius with "
+                    "--cell-width");
   add_units(command, request.units);
   add_coastlines(command, request.coastlines);
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 
 using namespace calotte::test;
@@ -166,17 +167,97 @@ TEST_CASE("the widths are drawn on a map") {
   CHECK(has(bench.file("widths.svg"), "<svg"));
 }
 
+TEST_CASE("a plan takes what a run takes: starts, fixed points, lines, planes, files of options") {
+  const Bench bench;
+  bench.file("points.txt", "1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n1 1 1\n-1 1 1\n"
+                           "1 -1 1\n1 1 -1\n-1 -1 1\n-1 1 -1\n1 -1 -1\n-1 -1 -1\n");
+  CHECK(plan_report(bench, "points.txt")["cells"] == 14);
+  bench.file("river.geojson", R"({"type": "LineString", "coordinates": [[0, 0], [20, 0]]})");
+  const nlohmann::json river =
+      plan_report(bench, "--cell-width 600km --fixed river.geojson --stop tolerance");
+  CHECK(river["fixed"].get<int>() > 2);
+  const nlohmann::json few = plan_report(bench, "--cells 2562 --iterations 3 --threads 1"),
+                       many = plan_report(bench, "--cells 2562 --iterations 30 --threads 1");
+  CHECK(number(many, "estimates", "seconds") > 5 * number(few, "estimates", "seconds"));
+
+  bench.file("run.toml", "output = \"grid.nc\"\nreport = \"run.json\"\ncheckpoint = \"state\"\n"
+                         "for = \"mpas-atmosphere\"\ncell-width = 500\n"
+                         "region = \"circle=10,50,2000km\"\nlimited-area = true\n");
+  const nlohmann::json of_file = plan_report(bench, "--config run.toml");
+  CHECK(bench.names() == std::set<std::string>{"plan.json", "points.txt", "river.geojson",
+                                               "run.toml"}); // no file of the run
+  bench.run("cvt --config run.toml --max-iterations 1");
+  CHECK(nlohmann::json::parse(bench.file("run.json"))["cells"] == of_file["cells"]);
+  bench.file("w.toml", "[cell-width]\nminimum = [400, 600]\n");
+  check_refusals(bench, "", R"(
+cvt --config w.toml -o a.nc | 2 | w.toml: it holds widths of cells, not options; give --cell-width w.toml
+plan --config w.toml | 2 | w.toml: it holds widths of cells, not options; give --cell-width w.toml
+)");
+}
+
+TEST_CASE(
+    "a plan says the extent and the area of its region, in km if widths are, and of a plane") {
+  const Bench bench;
+  const nlohmann::json disc =
+      plan_report(bench, "--cell-width 100km --region circle=-105,40,1000km");
+  const double angle = 1000 / radius;
+  CHECK(disc["area_km2"].get<double>() ==
+        doctest::Approx(2 * pi * radius * radius * (1 - std::cos(angle))).epsilon(1e-3));
+  const double degrees = 180 / pi * angle;
+  CHECK(disc["extent"]["latitude"][0].get<double>() == doctest::Approx(40 - degrees).epsilon(1e-4));
+  CHECK(disc["extent"]["latitude"][1].get<double>() == doctest::Approx(40 + degrees).epsilon(1e-4));
+  const double half = 180 / pi * std::asin(std::sin(angle) / std::cos(40 * pi / 180));
+  CHECK(disc["extent"]["longitude"][0].get<double>() == doctest::Approx(-105 - half).epsilon(1e-3));
+  const auto shown = [&](const std::string& arguments) {
+    return check_success(bench, "plan " + arguments).out;
+  };
+  CHECK(has(shown("--cell-width 100km --region circle=-105,40,1000km"),
+            "\nextent                116.8 W to 93.2 W, 31.0 N to 49.0 N\narea                  "
+            "3 134 992 km^2, 0.61% of the sphere\n"));
+  CHECK(has(shown("--cells 500 --region channel=-90,-40"),
+            "\nextent                all longitudes, 90.0 S to 40.0 S\n"));
+  CHECK(has(shown("--cells 500 --region circle=179,0,1000km"),
+            "extent                170.0 E to 172.0 W"));
+  const std::string plane = shown("--cells 500 --rectangle 1,0,3,1");
+  CHECK(has(plane, "\nextent                x 1 to 3, y 0 to 1\narea                  2\n"));
+  CHECK(has(plane, "\ncell width            0.06796 to 0.06796\n")); // sqrt(2 / sqrt 3 2 / 500)
+  CHECK(
+      has(shown("--cells 500 --periodic 2,1 --density tanh:x=1,y=0.5,beta=0.3,alpha=0.5,gamma=x2"),
+          " at x "));
+}
+
+TEST_CASE("a plan is in km where widths, a radius or a model give one, and says whether it fits") {
+  const Bench bench;
+  const auto shown = [&](const std::string& arguments) {
+    return check_success(bench, "plan " + arguments).out;
+  };
+  const auto in_km = [&](const std::string& arguments) {
+    return has(shown("--cells 642 " + arguments), "\ncell width, km        ");
+  };
+  CHECK(!in_km(""));
+  CHECK(in_km("--for mpas-atmosphere"));
+  CHECK(in_km("--sphere-radius earth"));
+  CHECK(in_km("--cell-width 900km"));
+  CHECK(in_km("--region circle=10,50,1500km"));
+  CHECK(!in_km("--region circle=10,50,20deg"));
+  CHECK(!in_km("--cell-width 900km --units degrees"));
+  CHECK(has(shown("--cells 642"), " MB; it fits into the "));
+  CHECK(has(shown("--cells 1000000000"), " of this machine: give fewer cells, or use a larger "));
+}
+
 TEST_CASE("bad input ends in one line, and nothing is written") {
   const Bench bench;
   bench.file("metres.msh", raster([](double) { return 30000; }));
   bench.file("place.geojson", R"({"type": "LineString", "coordinates": [[10, 20], [11, 20]]})");
   bench.file("alone.toml", "[cell-width]\naround = \"place.geojson\"\nwidth = 60\nover = 500\n");
   check_refusals(bench, "plan", R"(
--o widths.png --density uniform | 2 | a density has no unit, and implies no number of cells; give --cells N, or widths in km
--o widths.png --cells auto | 2 | a density has no unit, and implies no number of cells
--o widths.png --cells 11 | 2 | --cells: "11" is not an integer from 12 to 1073741824; see calotte plan --help
+-o widths.png --density uniform | 2 | no start: give a file of points, or the number of cells (--cells N), or cell widths
+-o widths.png --cells auto | 2 | --cells auto requires cell widths; give --cell-width, or a number of cells
+-o widths.png --cells 11 | 2 | 11
 -o widths.png --cells 100 --sphere-radius 0 | 2 | --sphere-radius 0 is not a positive number; give one such as
--o widths.png --cell-width a.nc --sphere-radius 6371229 | 2 | does not apply to widths in km; give --earth-radius, in km
+-o widths.png --cells 100 --for mpas-ocean --sphere-radius 1 | 2 | --for mpas-ocean needs a sphere with a radius of 6371220
+-o widths.png --cells 100 --rectangle 0,0,2,1 | 2 | -o draws widths on the sphere; leave it out for a plane
+--cells 100 --start fibonacci --seed 2 | 2 | --seed applies to the starts multilevel, continuation, random and density only
 -o widths.png --report plan.json --cell-width absent.nc | 3 | absent.nc
 --cells 100 -o widths.gif | 2 | widths.gif
 --cells 100 -o same.png --report same.png | 2 | same.png is both picture and report; give the report another name

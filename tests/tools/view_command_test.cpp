@@ -207,8 +207,11 @@ TEST_CASE("open, planar and periodic meshes, and cells of any shape") {
       calotte::read_cell_field(bench.folder() / "la.nc", "areaCell", std::ssize(areas)).values;
   CHECK(open.measure("area")["missing"] == 0); // those of the boundary, too
   CHECK(open.measure("quality")["missing"] == 0);
+  CHECK(open.measure("area")["unit"] == "km^2"); // of widths in km
+  constexpr double of_steradian = 6371.0 * 6371;
   for (std::size_t i = 0; i < areas.size(); ++i)
-    CHECK(areas[i] == doctest::Approx(of_file[static_cast<Eigen::Index>(i)]).epsilon(0x1p-15));
+    CHECK(areas[i] ==
+          doctest::Approx(of_steradian * of_file[static_cast<Eigen::Index>(i)]).epsilon(0x1p-15));
   make(bench, "cvt --cells 100 --periodic 2,1 -o box.nc");
   const HtmlPage box = make_page(bench, "box.nc --plane");
   const auto corners = coordinates(box, box.mesh(), box.mesh()["corners"]);
@@ -265,6 +268,16 @@ TEST_CASE("two meshes, a plan, and the states of a run") {
   const HtmlPage plan = make_page(bench, "--plan --cell-width 60km");
   CHECK(plan.measure("prescribed")["mean"] == doctest::Approx(60));
   CHECK(plan.measure("gradient")["greatest"].get<double>() < 1e-9);
+  CHECK(plan.header["title"] == "plan of 163 842 cells: uniform, 60 km");
+  CHECK(plan.mesh(0)["planned"] == 163842);
+  CHECK(plan.mesh(0)["home"].is_null());
+  const HtmlPage bump = make_page(
+      bench, "--plan --cells 4000 --density tanh:lon=-90,lat=30,beta=30deg,alpha=0.2,gamma=x8");
+  CHECK(bump.mesh(0)["home"]["lon"].get<double>() == doctest::Approx(-90).epsilon(0.05));
+  CHECK(bump.mesh(0)["home"]["lat"].get<double>() == doctest::Approx(30).epsilon(0.1));
+  CHECK(bump.measure("prescribed")["unit"] == "degrees");
+  const HtmlPage angles = make_page(bench, "--plan --cell-width 60km --units radians");
+  CHECK(angles.measure("prescribed")["mean"] == doctest::Approx(60.0 / 6371));
 }
 
 TEST_CASE("the states of a periodic run are kept in its box") {
@@ -374,6 +387,7 @@ TEST_CASE("bad input of view is one line") {
   make(bench, "cvt --cells 100 --periodic 2,1 -o box.nc");
   check_refusals(bench, "view", R"(
 | 2 | give a mesh, or --plan and the widths of a grid
+nowhere/grid.vtp | 3 | cannot read nowhere/grid.vtp: No such file or directory
 grid.vtp --plan --cell-width 60km | 2 | --plan shows widths before there is a mesh; leave MESH out
 --plan | 2 | a density has no unit; give --cells N, or widths in km (--cell-width 60km)
 --plan --cell-width 60km --field nope | 2 | --plan shows widths on the sphere; leave out --field, --history,

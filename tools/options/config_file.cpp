@@ -17,6 +17,8 @@ public:
   explicit Reader(const std::string& path) : path_(path) {}
 
   std::vector<ConfigSetting> settings(const toml::table& root) {
+    if (root.size() == 1 && root["cell-width"].is_table())
+      refuse_path(path_, "it holds widths of cells, not options; give --cell-width {}", path_);
     add(root, nullptr);
     std::stable_sort(settings_.begin(), settings_.end(),
                      [](const auto& a, const auto& b) { return a.line < b.line; });

@@ -116,8 +116,9 @@ std::vector<std::string> known_names(CLI::App& command) {
 class Application {
 public:
   /// \param folder base of relative file names.
-  Application(CLI::App& command, const std::string& path, std::filesystem::path folder)
-      : command_(command), path_(path), folder_(std::move(folder)) {
+  Application(CLI::App& command, const std::string& path, std::filesystem::path folder,
+              std::set<std::string> others = {})
+      : command_(command), path_(path), folder_(std::move(folder)), others_(std::move(others)) {
     for (CLI::Option* option : command.get_options())
       if (!option->empty())
         given_.insert(option);
@@ -129,7 +130,7 @@ public:
       apply(setting, translated(setting, *borrowed), *option_of(command_, borrowed->option));
     } else if (CLI::Option* option = option_of(command_, key)) {
       apply(setting, setting.values, *option);
-    } else {
+    } else if (!others_.contains(key)) {
       refuse(setting, message("unknown option \"{}\"; {}", setting.key,
                               remedy_for(key, known_names(command_), "",
                                          message("calotte {} --help", command_.get_name()))));
@@ -193,20 +194,22 @@ private:
   CLI::App& command_;
   const std::string& path_;
   std::filesystem::path folder_;
+  std::set<std::string> others_;                     ///< names without effect
   std::set<const CLI::Option*> given_;               ///< by the command line
   std::map<const CLI::Option*, std::int64_t> lines_; ///< of those that the file gives
 };
 
 } // namespace
 
-std::shared_ptr<std::string> add_config(CLI::App& command) {
+std::shared_ptr<std::string> add_config(CLI::App& command, const std::set<std::string>& others) {
   auto path = std::make_shared<std::string>();
   command
       .add_option_function<std::string>(
           "--config",
-          [&command, path](const std::string& file) {
+          [&command, path, others](const std::string& file) {
             *path = file;
-            Application application(command, file, std::filesystem::path(file).parent_path());
+            Application application(command, file, std::filesystem::path(file).parent_path(),
+                                    others);
             for (const ConfigSetting& setting : read_config(file))
               application.apply(setting);
           },

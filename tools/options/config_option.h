@@ -4,6 +4,7 @@
 #include "help/cli_forward.h"
 
 #include <memory>
+#include <set>
 #include <string>
 
 namespace calotte::tools {
@@ -19,11 +20,14 @@ namespace calotte::tools {
 /// - File names are relative to the folder of the TOML file. They are the values of options whose
 ///   type_name ends in FILE; words before it, as in sample|fibonacci|FILE, and "-" are no files.
 ///
+/// \param others names of options of another command, whose files may hold them; they have no
+///        effect.
 /// (CLI11's own set_config serves the main command alone and reads a part of TOML.)
 /// \return the file's name, once the options are parsed; "" if there is none. The parsing throws
 ///         Error file, parse, and invalid_argument naming the file, the line and the nearest known
 ///         name.
-std::shared_ptr<std::string> add_config(CLI::App& command);
+std::shared_ptr<std::string> add_config(CLI::App& command,
+                                        const std::set<std::string>& others = {});
 
 /// All options given to a command, by the command line or a file, one value a line.
 std::string given_options(const CLI::App& command);

@@ -209,7 +209,7 @@ WriteOptions write_options(const CvtRequest& request) {
   return options;
 }
 
-std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
+std::shared_ptr<CvtRequest> add_run_options(CLI::App& command) {
   auto request = std::make_shared<CvtRequest>();
   {
     const OptionGroup group(command, "Start");
@@ -227,11 +227,25 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
     const OptionGroup group(command, "Method");
     add_method(command, *request);
   }
+  request->delaunay = add_delaunay_options(command);
+  return request;
+}
+
+std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
+  const std::shared_ptr<CvtRequest> request = add_run_options(command);
   const OptionGroup group(command, "Output");
   add_files(command, *request);
-  request->delaunay = add_delaunay_options(command);
   add_saved(command, *request);
   return request;
+}
+
+std::set<std::string> cvt_option_names() {
+  CLI::App command;
+  add_cvt_options(command);
+  std::set<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    names.insert(option->get_lnames().begin(), option->get_lnames().end());
+  return names;
 }
 
 } // namespace calotte::tools

@@ -184,6 +184,10 @@ Surface region_of(const std::string& word, const std::string& inside, double rad
   }
 }
 
+bool has_kilometres(const std::string& word) {
+  return region_file(word).empty() && word.find("km") != std::string::npos;
+}
+
 std::string region_file(const std::string& word) {
   if (word.starts_with(land))
     return parts_of(word)[0];

@@ -40,6 +40,9 @@ void require_region_words(const RegionWords& words);
 Surface region_of(const std::string& word, const std::string& inside,
                   double radius_km = earth_radius_km);
 
+/// Whether the word has a length in km, as circle=10,50,1500km does.
+bool has_kilometres(const std::string& word);
+
 /// The file that the word names; empty if it names none.
 std::string region_file(const std::string& word);
 

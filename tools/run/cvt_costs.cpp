@@ -6,6 +6,9 @@
 #include <calotte/generators.h>
 
 #include <algorithm>
+#include <fstream>
+
+#include <unistd.h>
 
 namespace calotte::tools {
 namespace {
@@ -33,13 +36,14 @@ double vtp_bytes(double cells) {
 }
 
 /// Seconds of a thread to evaluate the density at a point.
-double seconds_of_point(const Density& density) {
+double seconds_of_point(const Density& density, const Surface& surface) {
   constexpr std::int64_t count = 1 << 14;
   constexpr int rounds = 3;
-  const Points3 points = fibonacci_sphere(count);
+  const Points3 points =
+      surface.is_sphere() ? fibonacci_sphere(count) : random_points(count, surface);
   double least = 1;
   for (int round = 0; round < rounds; ++round)
-    least = std::min(least, seconds_of([&] { evaluate(density, points); }));
+    least = std::min(least, seconds_of([&] { evaluate(density, points, surface); }));
   return least / count;
 }
 
@@ -50,7 +54,7 @@ double seconds_of_point(const Density& density) {
 
 /// Evaluations in units of the result's cells: of a uniform grid of the sphere, see Start, and of
 /// all others.
-constexpr double evaluations_uniform = 30, evaluations = 110;
+constexpr double evaluations_uniform = 30, evaluations_graded = 110;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
 constexpr double points_of_cell = 36;      ///< at which the density is evaluated
 constexpr double efficiency = 0.9;         ///< of each further thread
@@ -62,18 +66,33 @@ constexpr double many = 1e6;
 
 } // namespace
 
-CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Surface& region, int threads) {
+CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Surface& surface, int threads,
+                   std::optional<double> evaluations) {
   const auto n = static_cast<double>(cells);
   const bool uniform = density.uniform();
   const double of_cell =
-      seconds_of_cell + (uniform ? 0 : points_of_cell * seconds_of_point(density));
+      seconds_of_cell + (uniform ? 0 : points_of_cell * seconds_of_point(density, surface));
   CvtCosts costs;
-  costs.seconds = (uniform && !region.is_bounded() ? evaluations_uniform : evaluations) * n *
-                  of_cell / (1 + efficiency * (threads - 1));
+  const double usual =
+      uniform && surface.is_whole_sphere() ? evaluations_uniform : evaluations_graded;
+  costs.seconds = evaluations.value_or(usual) * n * of_cell / (1 + efficiency * (threads - 1));
   costs.memory = memory_of_program + (n < many ? memory_of_cell : memory_of_cell_of_many) * n;
   costs.mpas_file = file_bytes(Format::mpas, cells, uniform);
   costs.vtp_file = file_bytes(Format::vtp, cells, uniform);
   return costs;
+}
+
+double machine_memory() {
+  double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  // The limit of a container, of either version of control groups; "max" is none.
+  for (const char* path :
+       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    double limit = 0;
+    if (std::ifstream(path) >> limit && limit > 0)
+      memory = std::min(memory, limit);
+  }
+  return memory;
 }
 
 double file_bytes(Format format, std::int64_t cells, bool uniform) {

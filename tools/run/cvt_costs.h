@@ -6,10 +6,11 @@
 #include <calotte/write.h>
 
 #include <cstdint>
+#include <optional>
 
 namespace calotte::tools {
 
-/// What a run of calotte cvt on the sphere takes, roughly.
+/// What a run of calotte cvt takes, roughly.
 struct CvtCosts {
   double seconds = 0;   ///< wall-clock time to compute the mesh, without writing it
   double memory = 0;    ///< largest resident memory, bytes
@@ -24,10 +25,15 @@ struct CvtCosts {
 /// give, but for a few kB and for cells with more than 7 neighbours.
 ///
 /// \param cells >= 12.
-/// \param region where the run meshes.
+/// \param surface where the run meshes.
 /// \param threads >= 1.
+/// \param evaluations of all cells, if the run's options give their number.
 /// \throws Error as evaluate().
-CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Surface& region, int threads);
+CvtCosts cvt_costs(std::int64_t cells, const Density& density, const Surface& surface, int threads,
+                   std::optional<double> evaluations = {});
+
+/// The memory of this machine, bytes, or the limit of the container where that is less.
+double machine_memory();
 
 /// The size alone of a file in a format; 0 where it is not known.
 double file_bytes(Format format, std::int64_t cells, bool uniform);

@@ -133,7 +133,7 @@ CvtInput read_input(const CvtRequest& request) {
   CvtInput input;
   GridInput grid = read_grid(*request.density, request.part, request.cells,
                              planar(request) ? surface_of(*request.domain) : std::nullopt);
-  input.gradient = grid.rules.gradient;
+  input.rules = std::move(grid.rules);
   Recipe& recipe = input.recipe;
   recipe = std::move(grid.recipe);
   recipe.walls = walls_of(*request.domain);
@@ -188,7 +188,7 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
         message("{} requires {} cells{}", request.part.region, cells,
                 request.part.limited_area ? ", with those of the rings and some beyond" : ""));
   else if (widths && !input.recipe.surface.is_bounded())
-    notes = notes_on(*widths, words, input.gradient,
+    notes = notes_on(*widths, words, input.rules.gradient,
                      input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
                                                                         : std::nullopt);
   if (schedule.on_lines > 0)

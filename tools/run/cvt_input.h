@@ -32,7 +32,7 @@ struct CvtInput {
     std::vector<std::int64_t> lines;
   };
   Recipe recipe;
-  std::optional<double> gradient; ///< that the widths are limited to
+  WidthRules rules;      ///< of widths, if there are any
   File fixed_file, file; ///< of the fixed points, which come first in a run, and of the start's
   /// Checksums of these points and of the lines of --fixed, lines "name value" of a run's
   /// configuration.

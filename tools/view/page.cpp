@@ -166,6 +166,8 @@ Json add_mesh(const ViewMesh& mesh, Blocks& blocks) {
                {"plane", !mesh.on_sphere},
                {"cells", mesh.cells},
                {"total", mesh.total},
+               {"planned", mesh.planned > 0 ? Json(mesh.planned) : Json()},
+               {"home", nullptr},
                {"radius", number_or_null(mesh.radius_km)},
                {"low", low},
                {"step", step},
@@ -176,6 +178,8 @@ Json add_mesh(const ViewMesh& mesh, Blocks& blocks) {
                {"number", nullptr},
                {"law", law_of(mesh)},
                {"measures", Json::array()}};
+  if (mesh.home)
+    json["home"] = {{"lon", mesh.home->longitude}, {"lat", mesh.home->latitude}};
   if (mesh.triangles.cols() > 0)
     json["triangles"] =
         blocks.add({mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size()}, 3);

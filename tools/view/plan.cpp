@@ -36,16 +36,20 @@ DoubleVector gradients(const Mesh& mesh, const DoubleVector& values) {
 } // namespace
 
 ViewMesh view_plan(const std::string& name, const Density& density, double unit,
-                   std::optional<double> radius_km) {
+                   const Unit& lengths) {
   const Mesh sphere = delaunay(bisected_icosahedron(level));
-  ViewMesh mesh{.name = name, .radius_km = radius_km};
+  ViewMesh mesh{.name = name};
   mesh.cells = mesh.total = sphere.points.cols();
   mesh.points = sphere.points;
   mesh.triangles = sphere.triangles;
   mesh.notice = message(
       "The widths that the options prescribe, at {} places; no grid is made yet. ", mesh.cells);
-  const Unit lengths = unit_of({}, radius_km);
   const DoubleVector widths = spacings_of(density, unit, sphere.points);
+  Eigen::Index finest = 0;
+  if (widths.minCoeff(&finest) < widths.maxCoeff()) {
+    const Points2 at = to_lonlat(sphere.points.col(finest));
+    mesh.home = {at(0, 0), at(1, 0)};
+  }
   mesh.quantities.push_back({.name = "prescribed",
                              .label = "cell width",
                              .unit = lengths.name,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "draw/draw.h"
 #include "view/quantities.h"
 
 #include <calotte/density.h>
@@ -22,7 +23,9 @@ struct ViewMesh {
   bool on_sphere = true;
   std::optional<double> radius_km = {}; ///< of the sphere
   std::int64_t cells = 0;
-  std::int64_t total = 0; ///< cells of the file's mesh, of which these are a part
+  std::int64_t total = 0;          ///< cells of the file's mesh, of which these are a part
+  std::int64_t planned = 0;        ///< of a plan: cells of the grid
+  std::optional<LonLat> home = {}; ///< where the page opens; by default by the sites
   /// 3 x p, p >= cells: the sites, unit columns, then other corners of triangles. In a plane z = 0.
   Points3 points = {};
   std::vector<std::int32_t> copied = {}; ///< by point from `cells` on: the site that it copies
@@ -64,9 +67,10 @@ void set_plane(ViewMesh& mesh, const Mesh& planar, const Polygons& cells);
 /// The same for the cells that voronoi() makes.
 void set_plane(ViewMesh& mesh, const Mesh& planar);
 
-/// The spacings that a density prescribes and their gradient, on a regular mesh of the sphere.
-/// \param unit the spacing where the density is 1, radians.
+/// The spacings that a density prescribes and their gradient, on a regular mesh of the sphere. The
+/// page opens where they are finest.
+/// \param unit the spacing where the density is 1, radians. \param lengths the unit of the page.
 ViewMesh view_plan(const std::string& name, const Density& density, double unit,
-                   std::optional<double> radius_km);
+                   const Unit& lengths);
 
 } // namespace calotte::tools

@@ -43,8 +43,9 @@ export class Overlay {
   }
 }
 
-/** The number of cells, and of how many in the file they are a part. */
+/** The number of cells, and of how many in the file they are a part; of a plan those of its grid. */
 export function cellsText(mesh) {
-  const { cells, total } = mesh.header;
+  const { cells, total, planned } = mesh.header;
+  if (planned) return `${count(planned)} cells`;
   return total > cells ? `${count(cells)} of ${count(total)} cells` : `${count(cells)} cells`;
 }

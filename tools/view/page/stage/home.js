@@ -11,10 +11,12 @@ const shortMean = 0.1;
 const everywhere = { lon: 0, lat: 20, zoom: 1 };
 
 /**
- * The longitude, latitude and zoom at which a mesh of the sphere is seen well: over the middle of its
- * sites, so over the finest part of a mesh of the whole sphere, and close to a small area.
+ * The longitude, latitude and zoom at which a mesh of the sphere is seen well: over the place that its
+ * header names; or over the middle of its sites, so over the finest part of a mesh of the whole sphere,
+ * and close to a small area.
  */
 export function homeOf(mesh) {
+  if (mesh.header.home) return { ...mesh.header.home, zoom: 1 };
   const stride = Math.max(1, Math.floor(mesh.cells / sampleSize));
   const mean = [0, 0, 0];
   const sites = [];
