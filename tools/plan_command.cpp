@@ -174,16 +174,16 @@ void add_outputs(CLI::App& command, PlanRequest& request) {
 void add_plan(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "plan",
-      "Describes the grid that calotte cvt would make with the same options, without making it. It "
-      "prints cells, widths and their gradient, and estimates of time, memory and file sizes.");
+      "Describes the grid that calotte cvt would make, without making it. It prints cells, widths "
+      "and their gradient, and estimates of time, memory and file sizes.");
   auto request = std::make_shared<PlanRequest>();
   request->run = add_run_options(*command);
   add_outputs(*command, *request);
   request->run->config = add_config(*command, cvt_option_names());
   set_help(*command,
-           {.common = {"START", "--cells", "--density", "--cell-width", "--region",
-                       "--limited-area", "--for", "--sphere-radius", "--units", "--config",
-                       "--threads", "--output", "--report"},
+           {.common = {"START", "--cells", "--density", "--cell-width", "--outside-width",
+                       "--transition", "--region", "--limited-area", "--for", "--sphere-radius",
+                       "--units", "--config", "--threads", "--output", "--report"},
             .examples = {
                 "calotte plan --cell-width 60km", "calotte plan --config grid.toml",
                 "calotte plan --cell-width 60km --region circle=-105,40,1000km --limited-area",

@@ -119,8 +119,8 @@ struct MeshFile {
   double sphere_radius = 1;
   /// Radius of the planet that a file of the sphere is of, metres; none if nothing names it. It is
   /// sphere_radius in NetCDF files, where that is not 1; 1000 times a radius of 6300 to 6400, which
-  /// is the Earth's in km; on the unit sphere the attribute planet_radius, or else that of the
-  /// model which alone has such files, see suits().
+  /// is the Earth's in km; on the unit sphere the attribute planet_radius, or sphere_radius, from
+  /// 10 km on, or else that of the model which alone has such files, see suits().
   std::optional<double> planet_radius = {};
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of an MPAS file
   DoubleVector density = {};          ///< by site, as the file has it; empty if it has none

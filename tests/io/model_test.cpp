@@ -115,6 +115,8 @@ TEST_CASE("files on the unit sphere name the planet that they are of") {
        {Format::mpas_minimal, Format::ugrid, Format::ugrid_triangles, Format::scrip, Format::esmf})
     CHECK(planet("grid.nc", {.format = format, .planet_radius = 3390e3}) == Radius(3390e3));
   CHECK(planet("grid.exo", {.planet_radius = 3390e3}) == Radius(3390e3));
+  // Longitudes and latitudes have no radius.
+  CHECK(planet("grid.nc", {.format = Format::scrip, .sphere_radius = 2e6}) == Radius(2e6));
   // A radius of the sphere counts more than the planet's.
   CHECK(planet("grid.nc", {.sphere_radius = 2e6, .planet_radius = 3390e3}) == Radius(2e6));
   CHECK(planet("grid.nc", {.sphere_radius = 6371}) == Radius(6371e3)); // an Earth in km

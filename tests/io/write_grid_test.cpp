@@ -75,7 +75,9 @@ TEST_CASE("a limited area is the region and its rings") {
   const Made made(limited_area());
   const GridFile file = write_grid(scratch / "area.nc", made.mesh, made.recipe, made.schedule);
   const std::string written = calotte::test::read_file(scratch / "area.nc");
-  const CutReport report = write_limited_area(scratch / "area.nc", made.mesh, made.recipe.surface);
+  const WriteOptions of_widths{.planet_radius = 1000 * made.recipe.radius_km};
+  const CutReport report =
+      write_limited_area(scratch / "area.nc", made.mesh, made.recipe.surface, of_widths);
   CHECK(file.cells == report.cells);
   CHECK(file.inside == report.cells_by_mask.front());
   CHECK(file.inside < file.cells);
@@ -83,7 +85,7 @@ TEST_CASE("a limited area is the region and its rings") {
   CHECK(written == calotte::test::read_file(scratch / "area.nc"));
   { // in a folder that has room for it alone
     const calotte::test::FullDisk full(written.size());
-    write_limited_area(scratch / "area.nc", made.mesh, made.recipe.surface);
+    write_limited_area(scratch / "area.nc", made.mesh, made.recipe.surface, of_widths);
   }
   CHECK(written == calotte::test::read_file(scratch / "area.nc"));
   CHECK_THROWS_AS(write_grid(scratch / "area.vtp", made.mesh, made.recipe, made.schedule), Error);

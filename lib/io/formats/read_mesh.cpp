@@ -73,9 +73,11 @@ std::optional<double> find_planet(const MeshFile& content, const OpenFile& file)
     return 1000 * radius;
   if (radius != 1)
     return file.netcdf ? std::optional(radius) : std::nullopt;
-  const double named = file.netcdf ? file.netcdf->number("", planet_attribute, 0) : 0;
-  if (named > 0 && std::isfinite(named))
-    return named;
+  constexpr double smallest_planet = 1e4;                            // metres
+  for (const char* const name : {planet_attribute, "sphere_radius"}) // of longitudes and latitudes
+    if (const double named = file.netcdf ? file.netcdf->number("", name, 0) : 0;
+        named >= smallest_planet && std::isfinite(named))
+      return named;
   const auto is_its = [&](const ModelNeeds& model) {
     return suits(model, file.row->info.format, radius, content.vertex_order);
   };
