@@ -110,7 +110,7 @@ WidthDemand demand_of(const RefineRequest& request, const MeshFile& file) {
   const Surface& surface = file.mesh->surface;
   WidthDemand demand;
   WidthWords words = request.widths;
-  words.radius = radius_km(file, words).value_or(words.radius);
+  words.radius = radius_of_widths(file, words);
   demand.radius_km = words.radius;
   if (request.region.empty()) {
     demand.widths = read_widths(words, surface).widths;

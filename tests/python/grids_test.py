@@ -244,6 +244,9 @@ def test_lengths_are_shown_in_km_where_the_planet_is_known(tmp_path):
     assert calotte.refine(again, region="circle=0,0,3000km", factor=1.3).mesh.earth_radius == 6371
     assert calotte.refine(earth, region="circle=0,0,3000km", factor=1.3).mesh.earth_radius == 6371
     assert pickle.loads(pickle.dumps(again)).earth_radius == 6371
+    calotte.cut(tmp_path / "a.nc", tmp_path / "part.nc", "circle=0,0,3000km", rings=2)
+    shapes = calotte.read(tmp_path / "part.nc").cells.shapes()
+    assert f"area {shapes.area.min * 6371**2:.4g} to " in repr(shapes) and " km^2, " in repr(shapes)
 
 
 def test_every_attribute_has_documentation():

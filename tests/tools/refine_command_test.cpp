@@ -88,6 +88,36 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
   CHECK(read_mesh(bench.folder() / "finer.vtp", nullptr).points.cols() > 0);
 }
 
+TEST_CASE(
+    "the end of a change is one line, which says what is good or what is not and what to do") {
+  const Bench bench;
+  check_success(bench, "cvt --cells 642 -o base.nc");
+  CHECK(check_success(bench, "refine base.nc --cell-width 2000km -o same.nc").out ==
+        "same.nc: 642 cells, 642 of 642 kept (100.00%), 0 new in 0 patches; the demand is met\n");
+  const Outcome small =
+      bench.run("coarsen base.nc --region circle=10,50,2000km --factor 3 -o c.nc");
+  CHECK(small.code == 1);
+  CHECK(one_line(small.out));
+  CHECK(small.err.starts_with("calotte: c.nc: the demand is met in none of its "));
+  CHECK(small.err.ends_with("; give a larger region or --gradient\n"));
+  CHECK(one_line(small.err));
+}
+
+TEST_CASE("km are those of another planet where the file is of one") {
+  const Bench bench;
+  const auto cells = [&](const std::string& arguments) {
+    check_success(bench, "refine " + arguments + " --factor 2 -o new.nc --report r.json");
+    return nlohmann::json::parse(bench.file("r.json"))["cells"];
+  };
+  check_success(bench, "cvt --cells 2562 --cell-width 60km --earth-radius 3390 -o mars.nc");
+  check_success(bench, "cvt --cells 2562 -o unit.nc");
+  check_success(bench, "cvt --cells 2562 -o air.nc --for mpas-atmosphere");
+  CHECK(cells("mars.nc --region circle=10,50,900km") ==
+        cells("unit.nc --region circle=10,50,1691.407km")); // 900 6371 / 3390
+  CHECK(cells("air.nc --region circle=10,50,900km") ==
+        cells("unit.nc --region circle=10,50,900km"));
+}
+
 TEST_CASE("bad demands end in one line and leave no file") {
   const Bench bench;
   REQUIRE(bench.run("cvt --cells 642 -o base.nc").code == 0);

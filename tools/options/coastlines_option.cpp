@@ -17,11 +17,13 @@ void add_coastlines(CLI::App& command, std::optional<bool>& asked) {
       "option gives a radius that is not the earth's within 1%");
 }
 
-bool shows_coastlines(std::optional<bool> asked, std::optional<double> radius_km) {
+bool is_earth(double radius_km) {
   constexpr double tolerance = 0.01; // models of the earth differ by less
-  const bool earth =
-      !radius_km || std::abs(*radius_km - earth_radius_km) <= tolerance * earth_radius_km;
-  return asked.value_or(earth);
+  return std::abs(radius_km - earth_radius_km) <= tolerance * earth_radius_km;
+}
+
+bool shows_coastlines(std::optional<bool> asked, std::optional<double> radius_km) {
+  return asked.value_or(!radius_km || is_earth(*radius_km));
 }
 
 } // namespace calotte::tools

@@ -2,6 +2,7 @@
 #include "options/mesh_source.h"
 
 #include "io/command.h"
+#include "options/coastlines_option.h"
 #include "options/format_options.h"
 #include "options/point_file.h"
 #include "options/sphere_radius_option.h"
@@ -65,6 +66,14 @@ std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
   if (file.planet_radius)
     return *file.planet_radius / metres_per_km;
   return widths.in_km() ? std::optional(widths.radius) : std::nullopt;
+}
+
+double radius_of_widths(const MeshFile& file, const WidthWords& widths) {
+  const std::optional<double> planet = radius_km(file, {});
+  const bool given = widths.radius != earth_radius_km;
+  if (planet && (file.sphere_radius != 1 || (!given && !is_earth(*planet))))
+    return *planet;
+  return widths.radius;
 }
 
 const MeshField* find_cell_field(const MeshFile& file, const std::string& name,

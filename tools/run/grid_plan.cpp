@@ -15,7 +15,7 @@
 namespace calotte::tools {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double per_radian = 180 / std::numbers::pi;
 
 /// Widths: on the whole sphere all quantities follow from their nodes.
 SpacingSurvey survey(const Schedule& schedule, std::int64_t cells, double factor,
@@ -131,53 +131,60 @@ GridPlan make_grid_plan(const CvtRequest& request, const CvtInput& input, const 
   return plan;
 }
 
-std::string table(const GridPlan& plan, const Unit& unit) {
-  std::string lines;
-  const auto add = [&lines](const std::string& name, const std::string& value) {
-    lines += row(name, 22, value);
-  };
-  const auto in_unit = [](const std::string& name, const Unit& of) {
-    return of.name.empty() ? name : name + ", " + of.name;
-  };
-  const auto add_width = [&](const Unit& of) {
-    add(in_unit("cell width", of),
+namespace {
+
+std::string plan_row(const std::string& name, const std::string& value) {
+  return row(name, 22, value);
+}
+
+/// What the grid is: its part of the surface, its cells and their widths.
+std::string grid_rows(const GridPlan& plan, const Unit& unit) {
+  const auto width = [&plan](const Unit& of) {
+    return plan_row(
+        of.name.empty() ? "cell width" : "cell width, " + of.name,
         interval(plan.spacing.least * of.of_radian, plan.spacing.greatest * of.of_radian));
   };
-  add("density", plan.density);
+  std::string lines = plan_row("density", plan.density);
   if (!plan.region.empty())
-    add("region", plan.region);
-  if (plan.extent) {
-    add("extent", words_of(*plan.extent, plan.surface.is_sphere()));
-    add("area", area_words(plan, unit));
-  }
-  add("cells", message("{}", plan.cells));
+    lines += plan_row("region", plan.region);
+  if (plan.extent)
+    lines += plan_row("extent", words_of(*plan.extent, plan.surface.is_sphere())) +
+             plan_row("area", area_words(plan, unit));
+  lines += plan_row("cells", message("{}", plan.cells));
   if (plan.fixed > 0)
-    add("generators that stay", message("{}", plan.fixed));
-  if (plan.implied > 0) {
-    add("cells of the widths", formatted("%.0f", plan.implied));
-    add("factor on the widths", formatted("%.4g", plan.factor));
-  }
-  add_width(unit);
+    lines += plan_row("generators that stay", message("{}", plan.fixed));
+  if (plan.implied > 0)
+    lines += plan_row("cells of the widths", formatted("%.0f", plan.implied)) +
+             plan_row("factor on the widths", formatted("%.4g", plan.factor));
+  lines += width(unit);
   if (unit.name == "km")
-    add_width(unit_of("degrees", {}));
-  add("steepest gradient", gradient_words(plan));
-  lines += "actions of the run:\n";
+    lines += width(unit_of("degrees", {}));
+  return lines + plan_row("steepest gradient", gradient_words(plan));
+}
+
+std::string estimate_rows(const GridPlan& plan) {
+  return message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread")) +
+         plan_row("  time of cvt", duration(plan.costs.seconds)) +
+         plan_row("  memory", memory_words(plan)) +
+         plan_row("  MPAS file (.nc)", bytes(plan.costs.mpas_file)) +
+         plan_row("  triangles (.vtp)", bytes(plan.costs.vtp_file));
+}
+
+} // namespace
+
+std::string table(const GridPlan& plan, const Unit& unit) {
+  std::string lines = grid_rows(plan, unit) + "actions of the run:\n";
   for (const CvtAction& action : plan.actions)
-    add("  " + std::string(word_of(action.kind)), described(action));
+    lines += plan_row("  " + std::string(word_of(action.kind)), described(action));
   if (plan.width_seconds > 0)
-    add("time of the widths", duration(plan.width_seconds));
+    lines += plan_row("time of the widths", duration(plan.width_seconds));
   if (!plan.rules.empty())
     lines += "rules, and where each gives the width:\n";
   for (const RuleShare& rule : plan.rules)
     lines +=
         row("  " + rule.name, 32,
             message(" {} of the area, {} of the cells", percent(rule.area), percent(rule.cells)));
-  lines += message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread"));
-  add("  time of cvt", duration(plan.costs.seconds));
-  add("  memory", memory_words(plan));
-  add("  MPAS file (.nc)", bytes(plan.costs.mpas_file));
-  add("  triangles (.vtp)", bytes(plan.costs.vtp_file));
-  return lines;
+  return lines + estimate_rows(plan);
 }
 
 namespace {
@@ -194,7 +201,7 @@ void add_widths(const GridPlan& plan, Json& json) {
   if (plan.radius_km)
     json["width_km"] = range(*plan.radius_km);
   if (plan.surface.is_sphere())
-    json["width_degrees"] = range(degrees);
+    json["width_degrees"] = range(per_radian);
   const WidthGradient& steepest = plan.spacing.steepest;
   const bool sphere = plan.surface.is_sphere();
   json["gradient"] = {{"slope", steepest.slope},

@@ -42,7 +42,10 @@ def _polygons(cells):
 
 
 def _shapes(shapes):
-    return (f"<calotte.PolygonShapes: area {_range(shapes.area)}, {shapes.without_area} without area, "
+    unit = vars(shapes).get("_unit")
+    area = (_range(shapes.area) if unit is None else
+            _range(shapes.area, f" {unit.area}", unit.of_steradian))
+    return (f"<calotte.PolygonShapes: area {area}, {shapes.without_area} without area, "
             f"{shapes.not_convex} not convex, {shapes.not_centroidal} not centroidal>")
 
 

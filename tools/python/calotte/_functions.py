@@ -829,7 +829,7 @@ def _demand(mesh, cell_width, region, factor, earth_radius):
     """The widths that cells are to have."""
     demand, plane = _calotte.WidthDemand(), not mesh.surface.is_sphere
     if earth_radius is None:
-        earth_radius = _units.radius_of(mesh) or EARTH_RADIUS_KM
+        earth_radius = _units.radius_of_widths(mesh)
     demand.radius_km = earth_radius
     if (region is None) != (factor is None):
         raise Error("region and factor belong together; give both, or cell_width")

@@ -13,7 +13,10 @@ from . import _arguments, _calotte, _functions, _plot, _units
 def _cells(mesh):
     """Polygons of the file, where the cells are not the Voronoi cells of a whole mesh; or None."""
     content = _functions.content_of(mesh)
-    return None if content is None else content.polygons
+    cells = None if content is None else content.polygons
+    if cells is not None:
+        cells._earth_radius = _units.radius_of(mesh)
+    return cells
 
 
 def _fields(grid):
@@ -27,22 +30,33 @@ def _earth_radius(grid):
     return _units.radius_of(grid)
 
 
-def _unit(quality):
+_shapes_of = _calotte.Polygons.shapes
+
+
+def _shapes(cells):
+    """Measures of the polygons, see PolygonShapes."""
+    found = _shapes_of(cells)
+    found._unit = _units.unit_of(cells)
+    return found
+
+
+def _unit(measures):
     """The Unit in which lengths and areas are shown; None in a plane."""
-    return vars(quality).get("_unit")
+    return vars(measures).get("_unit")
 
 
-# A pickled Quality keeps its unit.
-_measures_of, _take_measures = _calotte.Quality.__getstate__, _calotte.Quality.__setstate__
+def _keep_unit(kind):
+    """Pickled measures keep their unit."""
+    measures_of, take_measures = kind.__getstate__, kind.__setstate__
 
+    def state_of(measures):
+        return measures_of(measures), vars(measures)
 
-def _state_of(quality):
-    return _measures_of(quality), vars(quality)
+    def take_state(measures, state):
+        take_measures(measures, state[0])
+        vars(measures).update(state[1])
 
-
-def _take_state(quality, state):
-    _take_measures(quality, state[0])
-    vars(quality).update(state[1])
+    kind.__getstate__, kind.__setstate__ = state_of, take_state
 
 
 def _not_voronoi(cells):
@@ -128,7 +142,9 @@ for _class in (_calotte.Mesh, _calotte.Polygons):
     _class.to_xarray = _to_xarray
     _class.plot = _plot.plot
     _class.topology = _topology
-_calotte.Quality.unit = property(_unit, doc=_unit.__doc__)
-_calotte.Quality.__getstate__, _calotte.Quality.__setstate__ = _state_of, _take_state
+_calotte.Polygons.shapes = _shapes
+for _class in (_calotte.Quality, _calotte.PolygonShapes):
+    _class.unit = property(_unit, doc=_unit.__doc__)
+    _keep_unit(_class)
 _calotte.Mesh.cells = property(_cells, doc=_cells.__doc__)
 _calotte.Polygons.not_voronoi = property(_not_voronoi, doc=_not_voronoi.__doc__)

@@ -149,8 +149,8 @@ std::shared_ptr<Polygons> polygons_from(const Doubles& corners, const Begin& beg
 }
 
 void add_shapes(py::module_& module) {
-  py::class_<PolygonShapes> shapes(module, "PolygonShapes",
-                                   "What polygons measure, of Polygons.shapes().");
+  py::class_<PolygonShapes> shapes(
+      module, "PolygonShapes", "What polygons measure, of Polygons.shapes().", py::dynamic_attr());
   add_members(
       shapes,
       Member{"area", &PolygonShapes::area,
@@ -213,6 +213,7 @@ void add_content(py::module_& module) {
       .def_readonly("format", &MeshFile::format)
       .def_property_readonly("not_voronoi",
                              [](const MeshFile& file) { return file.not_voronoi.text(); })
+      .def_readonly("sphere_radius", &MeshFile::sphere_radius)
       .def_readonly("planet_radius", &MeshFile::planet_radius)
       .def_readonly("changes", &MeshFile::changes)
       .def_property_readonly(
