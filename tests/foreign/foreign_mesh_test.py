@@ -262,7 +262,7 @@ def read_cells(folder, name, case, words, voronoi):
     require(row(out, "cells ") == [str(len(case.cells))], "info counts cells", out)
     require(close(float((row(out, "cells / 4 pi") or [0])[0]), total, 1e-9), "info's area", out)
     code, out, err = calotte(folder, "check", name)
-    require(code == 0 and words in out, "check", out + err)
+    require(code == 0 and ("yes, inside the boundary" if voronoi else words) in out, "check", out + err)
     if voronoi:
         to_open_mpas(folder, name, case)
     else:

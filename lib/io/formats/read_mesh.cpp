@@ -64,22 +64,23 @@ struct OpenFile {
   std::optional<NetcdfReader> netcdf;
 };
 
-/// MeshFile::planet_radius.
-std::optional<double> find_planet(const MeshFile& content, const OpenFile& file) {
+/// MeshFile::planet_radius. \param netcdf the file, if it is one.
+std::optional<double> find_planet(const MeshFile& content, Format format,
+                                  const NetcdfReader* netcdf) {
   const double radius = content.sphere_radius;
   if (!content.surface().is_sphere())
     return std::nullopt;
   if (radius > 6300 && radius < 6400) // as in JIGSAW's meshes
     return 1000 * radius;
   if (radius != 1)
-    return file.netcdf ? std::optional(radius) : std::nullopt;
+    return netcdf != nullptr ? std::optional(radius) : std::nullopt;
   constexpr double smallest_planet = 1e4;                            // metres
   for (const char* const name : {planet_attribute, "sphere_radius"}) // of longitudes and latitudes
-    if (const double named = file.netcdf ? file.netcdf->number("", name, 0) : 0;
+    if (const double named = netcdf != nullptr ? netcdf->number("", name, 0) : 0;
         named >= smallest_planet && std::isfinite(named))
       return named;
   const auto is_its = [&](const ModelNeeds& model) {
-    return suits(model, file.row->info.format, radius, content.vertex_order);
+    return suits(model, format, radius, content.vertex_order);
   };
   const auto model = std::ranges::find_if(models(), is_its);
   return model == models().end() ? std::nullopt : std::optional(model->planet_radius);
@@ -93,7 +94,8 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
   if (raw.surface.is_sphere() && file.row->reads_planes && lies_in_plane(raw.points))
     raw.surface = Surface::plane();
   MeshFile content = make_mesh_file(path, file.row->label, std::move(raw));
-  content.planet_radius = find_planet(content, file);
+  content.planet_radius =
+      find_planet(content, file.row->info.format, file.netcdf ? &*file.netcdf : nullptr);
   return content;
 }
 
@@ -138,7 +140,10 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
   if (!points || format_of_name(path) != Format::triangles)
     return read_any(path, choice);
   std::ifstream in = open_input(path);
-  return make_mesh_file_on_points(path, *points, get_triangles_text(in, path, points->cols()));
+  MeshFile file =
+      make_mesh_file_on_points(path, *points, get_triangles_text(in, path, points->cols()));
+  file.planet_radius = find_planet(file, Format::triangles, nullptr);
+  return file;
 }
 
 Mesh read_mesh(const std::string& path, const Points3* points) {
