@@ -81,7 +81,7 @@ struct CvtOutcome {
   CvtReport report;
   Mesh mesh; ///< empty after it is written
   std::int64_t cells = 0;
-  Quality shapes;             ///< of the mesh, where no polish ended the run
+  BadShapes shapes;           ///< of the mesh, where no polish ended the run
   std::string grid;           ///< the cells of the file, in words
   std::string worst_position; ///< of the cell of the worst shape: " (at ...)", or ""
   double area = 0;            ///< of the surface
@@ -184,7 +184,7 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
       outcome.mesh = std::move(grid.mesh);
       outcome.report = std::move(grid.report);
       if (!*run.schedule.recipe.stop.well_centred && outcome.report.converged)
-        outcome.shapes = measure_shapes(outcome.mesh);
+        outcome.shapes = count_bad_shapes(outcome.mesh);
     });
   } catch (const Error& error) {
     rethrow_with_line(error, run.input);

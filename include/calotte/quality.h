@@ -157,6 +157,18 @@ Quality triangle_quality(const Mesh& mesh);
 /// \throws Error invalid_argument, for a mesh that fails check_surface().
 Quality open_quality(const Mesh& mesh);
 
+/// The shapes to which models object, as Quality counts them.
+struct BadShapes {
+  std::int64_t obtuse = 0;      ///< triangles with an obtuse angle
+  std::int64_t short_edges = 0; ///< Voronoi edges below short_voronoi_edge times the Delaunay edge
+};
+
+/// Counts them; of a closed mesh of the sphere in a tenth of the time of quality(), without memory.
+/// \param mesh as of quality(), or open as of open_quality().
+/// \pre of a closed mesh of the sphere: unit columns, Delaunay.
+/// \throws Error as these.
+BadShapes count_bad_shapes(const Mesh& mesh);
+
 /// The measures of Quality for each cell and triangle, for maps and lists. Lengths are arcs on the
 /// unit sphere in radians and areas steradians, or in the unit of a plane and its square. NaN where
 /// a cell has no such measure: sigma, quality and area at sites that triangles do not surround, and

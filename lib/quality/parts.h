@@ -92,11 +92,11 @@ struct Edge {
   double offset = 0;  ///< of the Voronoi edge's midpoint from the Delaunay edge's
 };
 
-/// \param other the triangle across from vertex v of t, and its vertex across from t.
-inline Edge edge_of(const Shapes& shapes, std::int64_t t, int v, std::int64_t other, int w) {
-  const double arc = shapes[t].side[static_cast<std::size_t>(v)];
-  const double here = shapes[t].delta[static_cast<std::size_t>(v)],
-               there = shapes[other].delta[static_cast<std::size_t>(w)];
+/// \param other the triangle across from vertex v of one, and its vertex w across from that.
+inline Edge edge_of(const Shape& one, int v, const Shape& other, int w) {
+  const double arc = one.side[static_cast<std::size_t>(v)];
+  const double here = one.delta[static_cast<std::size_t>(v)],
+               there = other.delta[static_cast<std::size_t>(w)];
   const double length = here + there;
   return {arc, length < rounding_of_lattices * arc ? 0 : length, 0.5 * std::abs(here - there)};
 }
@@ -199,7 +199,7 @@ inline void add_edges(EdgePart& part, const Subject& subject, std::int64_t t) {
     if (other < t || !(subject.has(t) || subject.has(other)))
       continue;
     const int w = mesh_detail::vertex_across(neighbours, other, t);
-    const Edge edge = edge_of(subject.shapes, t, v, other, w);
+    const Edge edge = edge_of(subject.shapes[t], v, subject.shapes[other], w);
     part.spacing.add(edge.arc);
     if (subject.inverse_spacing.size() > 0) {
       part.fits.push_back(subject.fit(t, v));
@@ -241,8 +241,8 @@ inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) 
   Corner before = ring.back();
   for (const Corner corner : ring) {
     const int across = previous_vertex(corner.vertex);
-    const Edge edge = edge_of(subject.shapes, corner.triangle, across, before.triangle,
-                              next_vertex(before.vertex));
+    const Edge edge = edge_of(subject.shapes[corner.triangle], across,
+                              subject.shapes[before.triangle], next_vertex(before.vertex));
     bad = bad || is_short(edge) || is_mismatched(subject.fit(corner.triangle, across)) ||
           is_obtuse(subject.shapes[corner.triangle]);
     arcs.add(edge.arc);

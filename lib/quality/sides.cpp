@@ -59,7 +59,7 @@ void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
   std::optional<Edge> edge;
   if (other > t) {
     const int w = mesh_detail::vertex_across(mesh.neighbours, other, t);
-    edge = edge_of(shapes, t, v, other, w);
+    edge = edge_of(shapes[t], v, shapes[other], w);
   }
   for (const int end : {next_vertex(v), previous_vertex(v)}) {
     Sides& cell = cells[static_cast<std::size_t>(mesh.triangles(end, t))];
@@ -85,15 +85,19 @@ Mesh with_unit_columns(Mesh mesh) {
   return mesh;
 }
 
+Shape make_shape(const Mesh& mesh, std::int64_t t) {
+  return in_space_of(mesh.surface, [&](const Space auto& space) {
+    return shape_of(space, {column(mesh.points, mesh.triangles(0, t)),
+                            column(mesh.points, mesh.triangles(1, t)),
+                            column(mesh.points, mesh.triangles(2, t))});
+  });
+}
+
 Shapes make_shapes(const Mesh& mesh) {
   Shapes shapes(mesh.triangles.cols());
-  in_space_of(mesh.surface, [&](const Space auto& space) {
-    for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-      for (std::int64_t t = begin; t != end; ++t)
-        shapes[t] = shape_of(space, {column(mesh.points, mesh.triangles(0, t)),
-                                     column(mesh.points, mesh.triangles(1, t)),
-                                     column(mesh.points, mesh.triangles(2, t))});
-    });
+  for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      shapes[t] = make_shape(mesh, t);
   });
   return shapes;
 }

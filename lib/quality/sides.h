@@ -15,8 +15,9 @@ namespace calotte::quality_detail {
 /// The mesh with all columns of norm 1.
 Mesh with_unit_columns(Mesh mesh);
 
-/// \param mesh of unit columns, or of the plane.
-Shapes make_shapes(const Mesh& mesh);
+/// The shape of a triangle. \param mesh of unit columns, or of the plane.
+Shape make_shape(const Mesh& mesh, std::int64_t t);
+Shapes make_shapes(const Mesh& mesh); ///< of all
 
 /// Measures of the sides of a cell, as far as triangles surround it.
 struct Sides {

@@ -240,6 +240,31 @@ TEST_CASE("every measure agrees with its definition") {
   }
 }
 
+TEST_CASE("shapes to which models object are counted alone as among all measures") {
+  const auto check = [](const Mesh& mesh, const Quality& all) {
+    const BadShapes found = count_bad_shapes(mesh);
+    CHECK(found.obtuse == all.obtuse);
+    CHECK(found.short_edges == all.short_edges);
+  };
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    check(c.mesh, quality(c.mesh));
+  }
+  for (const std::int64_t n : {1000, 20000}) {
+    const Mesh random = delaunay(random_sphere(n, 3));
+    CHECK(count_bad_shapes(random).short_edges > n / 3);
+    check(random, quality(random));
+    const Mesh even = make_grid({.cells = n}).mesh;
+    CHECK(count_bad_shapes(even).short_edges == 0);
+    check(even, quality(even));
+  }
+  const Mesh part = delaunay(random_points(300, circle({1, 0, 0}, 0.5)));
+  check(part, open_quality(part));
+  const Surface box = Surface::periodic({2, 1});
+  const Mesh plane = delaunay(random_points(300, box), box);
+  check(plane, quality(plane));
+}
+
 TEST_CASE("laws: Euler's counts, areas of the sphere, means within their bounds") {
   for (const Case& c : cases()) {
     CAPTURE(c.name);

@@ -125,11 +125,7 @@ std::string residual_words(const CvtRequest& request, const CvtReport& report) {
                             : message("{} {}", request.norm, formatted("%.3g", report.residual));
 }
 
-Quality measure_shapes(const Mesh& mesh) {
-  return mesh.surface.is_sphere() ? open_quality(mesh) : quality(mesh);
-}
-
-std::string verdict(const CvtStop& stop, const CvtReport& report, const Quality& shapes) {
+std::string verdict(const CvtStop& stop, const CvtReport& report, const BadShapes& shapes) {
   if (!report.converged)
     return "not converged";
   if (*stop.well_centred)

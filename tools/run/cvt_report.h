@@ -20,13 +20,10 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
                     std::int64_t cells, double area, int threads,
                     const std::vector<KeptState>& states);
 
-/// Measures the shapes of a run's mesh. \param mesh with the run's surface.
-Quality measure_shapes(const Mesh& mesh);
-
 /// Whether a run's grid is good, a clause: "all shapes within the limits of models", or what is not
 /// and what to do.
 /// \param shapes as measured; of a run that did not end with a polish.
-std::string verdict(const CvtStop& stop, const CvtReport& report, const Quality& shapes);
+std::string verdict(const CvtStop& stop, const CvtReport& report, const BadShapes& shapes);
 
 /// "l2-scaled 1.2e-05", or "" for a run of a number of iterations.
 std::string residual_words(const CvtRequest& request, const CvtReport& report);
