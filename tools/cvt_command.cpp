@@ -245,15 +245,6 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
                  residual_words(request, report), *stop.tolerance, stop.max_iterations));
 }
 
-/// The periods and walls of a mesh.
-std::string kind_of_plane(const Eigen::Vector2d& period) {
-  const auto side = [](const char* name, double length) {
-    return length > 0 ? message("periodic in {}, {}", name, shortest(length))
-                      : message("with walls in {}", name);
-  };
-  return message("{}; {}", side("x", period.x()), side("y", period.y()));
-}
-
 /// Whether a cell is one polygon is known only now. If not, the triangles keep the run's result.
 [[noreturn]] void keep_triangles(const std::string& path, Mesh mesh, const Error& error) {
   const std::string kept = path + ".vtp";
@@ -274,17 +265,6 @@ GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
       keep_triangles(request.mesh, std::move(mesh), error);
     throw;
   }
-}
-
-/// "10 242 cells", and which part of the mesh they are.
-std::string describe_cells(const Recipe& asked, const GridFile& file) {
-  const std::string cells = spaced(file.cells) + " cells";
-  if (asked.limited_area)
-    return message("{}, {} in the region and {} in the rings around it", cells, spaced(file.inside),
-                   spaced(file.cells - file.inside));
-  if (asked.walls.x || asked.walls.y)
-    return message("{}, {}", cells, kind_of_plane(file.period));
-  return cells;
 }
 
 void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome,

@@ -135,11 +135,11 @@ void print_hexagons(const PlanRequest& request) {
 
 void run(const PlanRequest& request) {
   request.run->density->widths.plane = planar(*request.run);
-  require_request(request);
   if (request.run->domain->hexagons) {
     print_hexagons(request);
     return;
   }
+  require_request(request);
   const GridPlan plan = make_plan(request);
   if (!plan.doubt.empty())
     warn(plan.doubt);

@@ -960,11 +960,13 @@ TEST_CASE("a graded run reaches its number of cells and ends with good shapes") 
   const Outcome pure =
       bench.run("cvt --cells 1111 " + density + "--stop tolerance --tolerance 1e-4 -o b.vtp");
   CHECK(pure.out == "b.vtp: 1111 cells, all shapes within the limits of models\n");
+  const Outcome loose = bench.run("cvt --cells 400 --start random --tolerance 0.05 -o c.vtp");
+  CHECK(has(loose.out, ", to which models object; give --stop well-centred\n"));
   const Outcome few = bench.run("cvt --cells 400 --start random --iterations 2 -o c.vtp");
   CHECK(few.code == 0);
   CHECK(std::regex_match(few.out, std::regex("c.vtp: 400 cells, \\d+ obtuse triangles and \\d+ "
                                              "Voronoi edges below 0.18 times the Delaunay edge, to "
-                                             "which models object; give --stop well-centred\n")));
+                                             "which models object; leave --iterations out\n")));
 }
 
 // Slow: the line appears after a second.

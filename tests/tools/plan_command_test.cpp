@@ -214,6 +214,11 @@ TEST_CASE(
   CHECK(has(shown("--cell-width 100km --region circle=-105,40,1000km"),
             "\nextent                116.8 W to 93.2 W, 31.0 N to 49.0 N\narea                  "
             "3 134 992 km^2, 0.61% of the sphere\n"));
+  CHECK(has(shown("--cell-width 100km --region circle=-105,40,1000km --limited-area"),
+            ", with those of the rings and some beyond\n"));
+  CHECK(has(shown("--cells 200 --periodic 2,1 --walls y"),
+            ", with those of a gap beyond the walls\n"));
+  CHECK(shown("--hexagons 6,8,10 --walls y") == "cells                 48 regular hexagons\n");
   CHECK(has(shown("--cells 500 --region channel=-90,-40"),
             "\nextent                all longitudes, 90.0 S to 40.0 S\n"));
   CHECK(has(shown("--cells 500 --region circle=179,0,1000km"),

@@ -125,6 +125,24 @@ std::string residual_words(const CvtRequest& request, const CvtReport& report) {
                             : message("{} {}", request.norm, formatted("%.3g", report.residual));
 }
 
+std::string kind_of_plane(const Eigen::Vector2d& period) {
+  const auto side = [](const char* name, double length) {
+    return length > 0 ? message("periodic in {}, {}", name, shortest(length))
+                      : message("with walls in {}", name);
+  };
+  return message("{}; {}", side("x", period.x()), side("y", period.y()));
+}
+
+std::string describe_cells(const Recipe& asked, const GridFile& file) {
+  const std::string cells = spaced(file.cells) + " cells";
+  if (asked.limited_area)
+    return message("{}, {} in the region and {} in the rings around it", cells, spaced(file.inside),
+                   spaced(file.cells - file.inside));
+  if (asked.walls.x || asked.walls.y)
+    return message("{}, {}", cells, kind_of_plane(file.period));
+  return cells;
+}
+
 std::string verdict(const CvtStop& stop, const CvtReport& report, const BadShapes& shapes) {
   if (!report.converged)
     return "not converged";
@@ -138,8 +156,8 @@ std::string verdict(const CvtStop& stop, const CvtReport& report, const BadShape
                              counted(shapes.short_edges, "Voronoi edge"), short_voronoi_edge));
   if (faults.empty())
     return within_limits;
-  return message("{}, to which models object; give --stop well-centred",
-                 listed(faults, " and ", " and "));
+  return message("{}, to which models object; {}", listed(faults, " and ", " and "),
+                 stop.iterations ? "leave --iterations out" : "give --stop well-centred");
 }
 
 } // namespace calotte::tools

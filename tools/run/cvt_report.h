@@ -6,6 +6,9 @@
 
 #include <calotte/grid.h>
 #include <calotte/quality.h>
+#include <calotte/write_grid.h>
+
+#include <Eigen/Core>
 
 #include <string>
 #include <vector>
@@ -19,6 +22,12 @@ namespace calotte::tools {
 std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
                     const std::vector<KeptState>& states);
+
+/// The periods and walls of a mesh of a plane.
+std::string kind_of_plane(const Eigen::Vector2d& period);
+
+/// "10 242 cells", and which part of the mesh they are.
+std::string describe_cells(const Recipe& asked, const GridFile& file);
 
 /// Whether a run's grid is good, a clause: "all shapes within the limits of models", or what is not
 /// and what to do.

@@ -111,6 +111,9 @@ GridPlan make_grid_plan(const CvtRequest& request, const CvtInput& input, const 
   if (!asked.surface.is_whole_sphere())
     plan.extent = extent_of(asked.surface);
   plan.cells = made.cells > 0 ? made.cells : made.start.points.cols() + made.fixed.cols();
+  plan.beyond = asked.limited_area               ? ", with those of the rings and some beyond"
+                : asked.walls.x || asked.walls.y ? ", with those of a gap beyond the walls"
+                                                 : "";
   plan.implied = schedule.implied_cells;
   plan.fixed = made.fixed.cols();
   plan.actions = schedule.actions;
@@ -150,7 +153,7 @@ std::string grid_rows(const GridPlan& plan, const Unit& unit) {
   if (plan.extent)
     lines += plan_row("extent", words_of(*plan.extent, plan.surface.is_sphere())) +
              plan_row("area", area_words(plan, unit));
-  lines += plan_row("cells", message("{}", plan.cells));
+  lines += plan_row("cells", message("{}{}", plan.cells, plan.beyond));
   if (plan.fixed > 0)
     lines += plan_row("generators that stay", message("{}", plan.fixed));
   if (plan.implied > 0)

@@ -25,6 +25,7 @@ struct GridPlan {
   std::string region;           ///< its word, or ""
   std::optional<Extent> extent; ///< of a part of the sphere and of a plane
   std::int64_t cells = 0;
+  std::string beyond;             ///< cells of the run that are not written, in words, or ""
   double implied = 0;             ///< cells that widths imply; 0 for a density
   double factor = 1;              ///< of the widths of the file, in this grid
   std::int64_t fixed = 0;         ///< generators that stay, those on lines and on the boundary, too
