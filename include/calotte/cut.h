@@ -121,7 +121,8 @@ struct CullOptions {
   double land_fraction = 0.5;
   SeaField field = {}; ///< in addition to these. Default: none.
   /// Lines that stay open: all cells on them are sea. Each is 3 x points, unit columns, joined by
-  /// arcs of great circles. A line on land that reaches no sea is an error. Default: none.
+  /// arcs of great circles. A line on land that reaches no sea has no effect; it is an error if all
+  /// are so. Default: none.
   std::vector<Points3> passages = {};
   std::vector<Points3> barriers = {}; ///< lines whose cells are land, unless on a passage
   /// Cells with a single neighbour in the sea become land, repeatedly. Default: true.
@@ -151,8 +152,11 @@ struct CullReport {
   std::int64_t vertices = 0;                           ///< of the new mesh
   double sphere_radius = 1;                            ///< of the new file
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of the new file
-  std::int64_t land = 0;             ///< cells that coast, raster and field make land
-  SeaReport sea;                     ///< decisions of sea_cells()
+  std::int64_t land = 0; ///< cells that coast, raster and field make land
+  SeaReport sea;         ///< decisions of sea_cells()
+  Points3 severed;       ///< the middle of each of sea.severed_parts, unit columns
+  /// Passages on land that reach no sea, as where a gulf is narrower than cells: their indices.
+  std::vector<std::int64_t> stranded_passages = {};
   std::vector<std::string> left_out; ///< variables, as CutReport::left_out
 };
 

@@ -27,6 +27,14 @@ struct Coast {
 /// where polygons are cut.
 std::vector<Points3> shores(const Coast& coast);
 
+/// The coast without the islands and the lakes that are smaller than an area, and without what lies
+/// in these: its closed lines, see shores(), that have less on one side are left out.
+/// \param least_area steradians, >= 0; less is left out. Default of callers: 0, which changes
+///        nothing.
+/// \throws Error invalid_argument for an area that is negative or not finite, for one that leaves
+///         nothing, and as shores().
+Coast without_small(const Coast& coast, double least_area);
+
 /// The land around a point, such as an island with its lakes: the smallest left side of a ring that
 /// contains it, without the loops in which a simplified coast crosses itself.
 /// \param point direction of any norm.
@@ -70,6 +78,12 @@ struct SeaOptions {
   std::vector<std::int32_t> seeds = {};
 };
 
+/// A connected part of the sea.
+struct SeaPart {
+  std::int64_t cells = 0;
+  std::int32_t middle = -1; ///< one of its cells that is farthest from other cells, in rows
+};
+
 /// The decisions of sea_cells().
 struct SeaReport {
   std::int64_t opened = 0;  ///< cells of land that became sea
@@ -77,7 +91,12 @@ struct SeaReport {
   std::int64_t filled = 0;  ///< cells with a single neighbour in the sea, or none
   std::int64_t parts = 0;   ///< of the sea before the others were left out
   std::int64_t severed = 0; ///< cells in parts without a seed
+  /// The largest parts without a seed, at most max_severed_parts, largest first.
+  std::vector<SeaPart> severed_parts = {};
 };
+
+/// The number of parts that SeaReport names.
+inline constexpr std::size_t max_severed_parts = 5;
 
 /// The sea, and how it was decided.
 struct SeaCells {

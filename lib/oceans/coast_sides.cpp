@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -140,13 +141,23 @@ CoastSides::CoastSides(const std::vector<CoastArc>& arcs)
     std::swap(land_, sea_);
 }
 
-std::vector<CoastArc> coast_arcs(const Coast& coast) {
+namespace {
+
+/// The arcs of all rings.
+std::vector<Arc> ring_arcs(const Coast& coast) {
   std::vector<Arc> all;
   for (std::size_t r = 0; r < coast.rings.size(); ++r) {
     const std::vector<Vec3> corners = corners_of(coast.rings[r], static_cast<std::int64_t>(r));
     for (std::size_t k = 0; k < corners.size(); ++k)
       all.push_back({corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]});
   }
+  return all;
+}
+
+} // namespace
+
+std::vector<CoastArc> coast_arcs(const Coast& coast) {
+  std::vector<Arc> all = ring_arcs(coast);
   std::vector<std::array<double, 6>> sorted;
   for (const Arc& arc : all)
     sorted.push_back(ends(arc.from, arc.to));
@@ -155,6 +166,26 @@ std::vector<CoastArc> coast_arcs(const Coast& coast) {
     return std::binary_search(sorted.begin(), sorted.end(), ends(arc.to, arc.from));
   });
   return joined_lines(all);
+}
+
+std::vector<CoastArc> closed_lines(const Coast& coast) {
+  const std::vector<Arc> all = ring_arcs(coast);
+  std::map<std::array<double, 6>, std::vector<std::size_t>> single; // without one that runs back
+  std::vector<bool> paired(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    std::vector<std::size_t>& back = single[ends(all[k].to, all[k].from)];
+    if (back.empty()) {
+      single[ends(all[k].from, all[k].to)].push_back(k);
+    } else {
+      paired[k] = paired[back.back()] = true;
+      back.pop_back();
+    }
+  }
+  std::vector<Arc> kept;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (!paired[k])
+      kept.push_back(all[k]);
+  return joined_lines(kept);
 }
 
 } // namespace oceans_detail

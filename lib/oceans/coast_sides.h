@@ -27,6 +27,10 @@ struct CoastArc {
 ///         the one before.
 std::vector<CoastArc> coast_arcs(const Coast& coast);
 
+/// The same with each arc that runs back cancelling one: all lines are closed, also of simplified
+/// coasts, which pass some arcs more than once.
+std::vector<CoastArc> closed_lines(const Coast& coast);
+
 /// The sides of a coast, exact.
 class CoastSides {
 public:

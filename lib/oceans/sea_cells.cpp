@@ -2,9 +2,11 @@
 #include <calotte/ocean.h>
 
 #include "base/require.h"
+#include "mesh/rows.h"
 #include "oceans/room.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace calotte {
@@ -95,6 +97,49 @@ std::vector<bool> kept_parts(const SeaParts& parts, const std::vector<std::int32
   return kept;
 }
 
+/// One of the cells that the rows of a part, grown inwards from its outer cells, reach last.
+std::int32_t middle_of(const IdLists& cells_on_cell, const SeaParts& parts, std::int32_t part) {
+  std::vector<char> seen(static_cast<std::size_t>(parts.of_cell.size()));
+  std::vector<std::int32_t> row;
+  const auto is_inside = [&](std::int32_t cell) {
+    return cell >= 0 && parts.of_cell[cell] == part;
+  };
+  const auto take = [&](std::int32_t cell) {
+    return is_inside(cell) && std::exchange(seen[static_cast<std::size_t>(cell)], 1) == 0;
+  };
+  std::int32_t first = -1;
+  for (std::int32_t cell = 0; cell < parts.of_cell.size(); ++cell) {
+    if (!is_inside(cell))
+      continue;
+    first = first < 0 ? cell : first;
+    const auto around = cells_on_cell[cell];
+    if (!std::all_of(around.begin(), around.end(), is_inside) && take(cell))
+      row.push_back(cell);
+  }
+  std::vector<std::int32_t> last{first};
+  for (; !row.empty(); row = mesh_detail::next_row(
+                           row, [&](std::int32_t cell) { return cells_on_cell[cell]; }, take))
+    last = row;
+  return *std::min_element(last.begin(), last.end());
+}
+
+/// The largest parts that are not kept, largest first.
+std::vector<SeaPart> find_severed(const IdLists& cells_on_cell, const SeaParts& parts,
+                                  const std::vector<bool>& kept) {
+  std::vector<std::int32_t> severed;
+  for (std::int32_t part = 0; part < std::ssize(parts.size); ++part)
+    if (!kept[static_cast<std::size_t>(part)])
+      severed.push_back(part);
+  const auto size = [&](std::int32_t part) { return parts.size[static_cast<std::size_t>(part)]; };
+  std::stable_sort(severed.begin(), severed.end(),
+                   [&](std::int32_t a, std::int32_t b) { return size(a) > size(b); });
+  severed.resize(std::min(severed.size(), max_severed_parts));
+  std::vector<SeaPart> named;
+  for (const std::int32_t part : severed)
+    named.push_back({size(part), middle_of(cells_on_cell, parts, part)});
+  return named;
+}
+
 } // namespace
 
 SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& is_land,
@@ -108,9 +153,12 @@ SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>
   if (options.fill)
     counts.filled = fill(cells_on_cell, of_cell);
   const SeaParts parts = find_parts(cells_on_cell, of_cell);
-  require(!parts.size.empty(), "no cell is sea; check the land");
+  require(!parts.size.empty(),
+          "no cell is sea; check the polygons, the values of the raster, or the bounds of the "
+          "field");
   const std::vector<bool> kept = kept_parts(parts, options.seeds);
   counts.parts = std::ssize(parts.size);
+  counts.severed_parts = find_severed(cells_on_cell, parts, kept);
   for (std::int64_t i = 0; i < of_cell.size(); ++i)
     if (of_cell[i] == sea && !kept[static_cast<std::size_t>(parts.of_cell[i])]) {
       of_cell[i] = land;

@@ -199,6 +199,7 @@ TEST_CASE("a passage joins two seas, a barrier parts them again, seeds choose") 
   CHECK(open.parts == 1);
   CHECK(open.opened > 3);
   CHECK(open.severed == 0);
+  CHECK(open.severed_parts.empty());
   for (std::int64_t i = 0; i < sea.size(); ++i)
     CHECK((sea[i] < 0 || neighbours_in(divided.cells, sea, i) >= 2));
 
@@ -209,6 +210,10 @@ TEST_CASE("a passage joins two seas, a barrier parts them again, seeds choose") 
     CHECK(sea[seed] == 0);
     CHECK(sea[1999 - seed] == -1);
     CHECK(one.severed > 500);
+    REQUIRE(one.severed_parts.size() == 1);
+    CHECK(one.severed_parts[0].cells == one.severed);
+    const auto middle = one.severed_parts[0].middle; // within a cell or two of the other pole
+    CHECK(divided.cells.cells(2, middle) * (seed == 0 ? -1 : 1) > 0.98);
   }
   options.seeds = {0, 1999};
   CHECK(divided.report(options, sea).severed == 0);
@@ -368,7 +373,8 @@ TEST_CASE("the sea by a field, and what is refused") {
   options.field.variable = "absent";
   CHECK(has(refusal(options), "absent"));
   options.field = {"", "zCell", 2, 3};
-  CHECK(refusal(options) == "no cell is sea; check the land");
+  CHECK(refusal(options) ==
+        "no cell is sea; check the polygons, the values of the raster, or the bounds of the field");
   options.field = {"", "zCell", 0, 1};
   options.land_fraction = 1;
   CHECK(has(refusal(options), "fraction of land"));

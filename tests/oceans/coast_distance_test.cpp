@@ -4,8 +4,10 @@
 #include "support/files.h"
 #include "support/gshhg.h"
 
+#include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/ocean.h>
+#include <calotte/voronoi.h>
 #include <calotte/widths.h>
 
 #include <doctest/doctest.h>
@@ -54,6 +56,49 @@ TEST_CASE("distances from a coast are positive in the sea and negative on land")
     worst = std::max(worst, std::abs(got[i] - expected * degree * earth_radius_km));
   }
   CHECK(worst < 0.01); // km, of the polygons
+}
+
+TEST_CASE("a coast without what is small: islands, lakes, and what lies in these") {
+  const Eigen::Vector3d pole = direction(0, 90), lake = direction(180, 0), isle = direction(60, 0);
+  const auto ring = [](const Eigen::Vector3d& centre, double radius) -> Points3 {
+    return circle(centre, radius * degree, 400).rings().front();
+  };
+  const auto cap = [&](double radius) { return circle(pole, radius * degree, 400).area(); };
+  const double all = cap(50) - cap(10) + cap(5) + cap(8) - cap(4);
+  const Coast coast{{ring(lake, 50), ring(lake, 10).rowwise().reverse(), ring(lake, 5),
+                     ring(isle, 8), ring(isle, 4).rowwise().reverse()},
+                    all};
+  struct Kept {
+    double radius; ///< of a circle with the least area
+    std::size_t rings;
+    double area;
+  };
+  for (const auto& [radius, rings, area] : std::vector<Kept>{{0, 5, all},
+                                                             {3, 5, all},
+                                                             {4.5, 4, all + cap(4)},
+                                                             {6, 3, all + cap(4) - cap(5)},
+                                                             {9, 2, cap(50) - cap(10)},
+                                                             {12, 1, cap(50)}}) {
+    const Coast large = without_small(coast, radius == 0 ? 0 : cap(radius));
+    CAPTURE(radius);
+    CHECK(large.rings.size() == rings);
+    CHECK(large.area == doctest::Approx(area).epsilon(1e-12));
+  }
+  CHECK(message_of([&] { without_small(coast, cap(60)); }) ==
+        "all land of the coast is smaller than the least area; give a smaller one");
+  CHECK(message_of([&] { without_small(coast, -1); }) ==
+        "the least area of islands and lakes is -1; give 0 or more");
+}
+
+TEST_CASE("the lines of GSHHG without islands below 10000 km2 sum to the area that is left") {
+  const Coast all = gshhg('c'), large = without_small(all, 1e4 / (6371.0 * 6371.0));
+  CHECK(large.rings.size() < all.rings.size() / 2);
+  CHECK(large.rings.size() > 30);
+  CHECK(large.area < all.area);
+  CHECK(large.area > 0.98 * all.area);
+  const Voronoi cells = voronoi(delaunay(fibonacci_sphere(500)));
+  CHECK(land_fractions(cells, large).dot(cells.cell_area) ==
+        doctest::Approx(large.area).epsilon(1e-10));
 }
 
 TEST_CASE("one side of a coast says nothing of the other") {

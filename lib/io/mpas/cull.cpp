@@ -108,21 +108,36 @@ SeaOptions sea_options(const SourceCells& source_cells, const CullOptions& optio
   return sea;
 }
 
-/// \throws Error invalid_argument, naming the first passage that is on land and does not connect to
-/// the sea.
-void require_passages(const SourceCells& source_cells, const Land& land, const Ids& sea,
-                      const CullOptions& options) {
+/// The passages that are on land and do not connect to the sea, as in cells that are wider than a
+/// gulf.
+/// \throws Error invalid_argument, naming the first one, if all passages are so.
+std::vector<std::int64_t> stranded_passages(const SourceCells& source_cells, const Land& land,
+                                            const Ids& sea, const CullOptions& options) {
+  std::vector<std::int64_t> stranded;
   for (std::size_t p = 0; p < options.passages.size(); ++p) {
     const std::vector<std::int32_t> cells =
         cells_on_lines(*source_cells.cells, {options.passages[p]});
-    const bool apart = std::all_of(cells.begin(), cells.end(), [&](std::int32_t cell) {
-      return land.flags[static_cast<std::size_t>(cell)] != 0 && sea[cell] < 0;
-    });
-    if (apart)
-      refuse(message("passage {} lies on land only and reaches no sea; begin and end it in the sea",
-                     p),
-             static_cast<std::int64_t>(p));
+    if (std::all_of(cells.begin(), cells.end(), [&](std::int32_t cell) {
+          return land.flags[static_cast<std::size_t>(cell)] != 0 && sea[cell] < 0;
+        }))
+      stranded.push_back(static_cast<std::int64_t>(p));
   }
+  if (!stranded.empty() && stranded.size() == options.passages.size())
+    refuse(message("passage {} lies on land only and reaches no sea; begin and end it in the sea",
+                   stranded.front()),
+           stranded.front());
+  return stranded;
+}
+
+/// The middle of each part of the sea that is left out.
+Points3 middles(const MpasSource& source, const std::vector<SeaPart>& parts) {
+  Points3 found(3, std::ssize(parts));
+  if (parts.empty())
+    return found;
+  const Points3 generators = source.generators();
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    found.col(static_cast<Eigen::Index>(k)) = generators.col(parts[k].middle).normalized();
+  return found;
 }
 
 void add_maps(const MpasPart& part, NetcdfSubset& subset) {
@@ -214,7 +229,8 @@ CullReport cull(const std::string& source_path, const std::string& target,
       sea_cells(source_cells.cells_on_cell, land.flags, sea_options(source_cells, options));
   const Ids& sea = decided.mask;
   report.sea = decided.report;
-  require_passages(source_cells, land, sea, options);
+  report.severed = middles(source, report.sea.severed_parts);
+  report.stranded_passages = stranded_passages(source_cells, land, sea, options);
   const MpasPart part = select_part(source, sea);
   const ReversedEdges reversed = reversed_edges(source, part);
   NetcdfSubset subset = make_subset(source, part);
