@@ -6,10 +6,12 @@
 #include "options/files.h"
 #include "options/global_option.h"
 #include "options/model_option.h"
+#include "options/numbers.h"
 #include "run/progress.h"
 #include "text/text.h"
 
 #include <calotte/cut.h>
+#include <calotte/generators.h>
 #include <calotte/read.h>
 #include <calotte/version.h>
 
@@ -35,6 +37,7 @@ struct CullRequest {
   std::string field, field_file;
   std::optional<double> below, from;
   double land_fraction = CullOptions{}.land_fraction;
+  double least_area = 0; ///< km^2 of the Earth
   bool no_fill = false;
 
   std::vector<std::string> inputs() const {
@@ -47,6 +50,7 @@ struct CullRequest {
 
 /// Checks all options that can fail, before any input is read.
 void require_request(const CullRequest& request) {
+  require_mpas_source(request.source);
   require_mpas_name(request.output);
   require_mpas_model(request.model);
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
@@ -61,14 +65,14 @@ void require_request(const CullRequest& request) {
 }
 
 /// All polygons of several files.
-Coast coast_of(const std::vector<std::string>& files) {
+Coast coast_of(const CullRequest& request) {
   Coast all;
-  for (const std::string& file : files) {
+  for (const std::string& file : request.land) {
     const Coast coast = read_coast(file);
     all.area += coast.area;
     all.rings.insert(all.rings.end(), coast.rings.begin(), coast.rings.end());
   }
-  return all;
+  return without_small(all, request.least_area / (earth_radius_km * earth_radius_km));
 }
 
 std::vector<Points3> read_all_lines(const std::vector<std::string>& files) {
@@ -99,7 +103,7 @@ std::vector<FieldDimension> dimensions_of(const CullRequest& request) {
 
 CullOptions options_of(const CullRequest& request) {
   CullOptions options;
-  options.coast = coast_of(request.land);
+  options.coast = coast_of(request);
   if (!request.raster.empty())
     options.raster = read_land(request.raster, request.raster_variable, request.raster_values);
   options.land_fraction = request.land_fraction;
@@ -126,7 +130,36 @@ CullOptions options_of(const CullRequest& request) {
   return options;
 }
 
-std::string describe_cull(const CullRequest& request, const CullReport& report) {
+/// The largest parts of the sea that are left out, a line for each.
+std::string severed_parts(const CullReport& report) {
+  std::string lines;
+  for (std::size_t k = 0; k < report.sea.severed_parts.size(); ++k) {
+    const Points2 at = to_lonlat(report.severed.col(static_cast<Eigen::Index>(k)));
+    lines += row("  around " + lonlat_words(at(0, 0), at(1, 0)), 28,
+                 message("{}", report.sea.severed_parts[k].cells));
+  }
+  if (const auto parts = std::ssize(report.sea.severed_parts); parts > 0)
+    lines += message("{}--passage connects a part, --seed LON,LAT keeps one\n",
+                     report.sea.parts - parts > 1 ? "  and others; " : "  ");
+  return lines;
+}
+
+/// A line on passages without effect; "" if all have one.
+std::string stranded_passages(const CullReport& report, const CullOptions& options) {
+  std::vector<std::string> positions;
+  for (const std::int64_t passage : report.stranded_passages) {
+    const Points3& line = options.passages[static_cast<std::size_t>(passage)];
+    const Points2 at = to_lonlat(line.col(line.cols() / 2));
+    positions.push_back(lonlat_words(at(0, 0), at(1, 0)));
+  }
+  return positions.empty()
+             ? ""
+             : message("{} without effect, as no cell of the sea is at their ends: {}\n",
+                       counted(std::ssize(positions), "passage"), listed(positions));
+}
+
+std::string describe_cull(const CullRequest& request, const CullOptions& options,
+                          const CullReport& report) {
   const auto line = [](const std::string& name, std::int64_t cells) {
     return row(name, 28, message("{}", cells));
   };
@@ -138,11 +171,12 @@ std::string describe_cull(const CullRequest& request, const CullReport& report) 
   if (!request.barriers.empty())
     lines += line("closed by barriers", sea.closed);
   if (!request.passages.empty())
-    lines += line("opened by passages", sea.opened);
+    lines += line("opened by passages", sea.opened) + stranded_passages(report, options);
   if (!request.no_fill)
     lines += line("filled, of one neighbour", sea.filled);
   lines += line("parts of the sea", sea.parts);
   lines += line("cells in parts left out", sea.severed);
+  lines += severed_parts(report);
   return lines +
          message("{}: {} cells, {} edges, {} vertices\n", request.output, report.cells,
                  report.edges, report.vertices) +
@@ -154,15 +188,16 @@ std::string describe_cull(const CullRequest& request, const CullReport& report) 
 
 void run(const CullRequest& request) {
   require_request(request);
+  CullOptions options;
   CullReport report;
   {
     Progress progress;
     progress.stage("reading the land");
-    const CullOptions options = options_of(request);
+    options = options_of(request);
     progress.stage("culling " + request.source);
     report = cull(request.source, request.output, options);
   }
-  std::cout << describe_cull(request, report);
+  std::cout << describe_cull(request, options, report);
 }
 
 void add_raster(CLI::App& command, CullRequest& request) {
@@ -203,6 +238,12 @@ void add_land(CLI::App& command, CullRequest& request) {
                   "Cells with a larger fraction of land are land, 0 to less than 1. The fractions "
                   "of --land are exact. Default: 0.5.")
       ->type_name("F");
+  command
+      .add_option("--least-area", request.least_area,
+                  "Islands and lakes of --land that are smaller do not count, km^2 on the Earth; "
+                  ">= 0. Default: 0, all count.")
+      ->transform(square_kilometres())
+      ->needs("--land");
   command
       .add_option("--field", request.field,
                   "Variable with a number for each cell that tells the sea from the land. Cells "

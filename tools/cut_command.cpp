@@ -32,6 +32,7 @@ struct CutRequest {
 
 /// Checks all options that can fail, before any input is read.
 void require_request(const CutRequest& request) {
+  require_mpas_source(request.source);
   require_mpas_name(request.output);
   if (request.sphere_radius)
     require_sphere_radius(*request.sphere_radius);

@@ -161,7 +161,7 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
           "--region", arguments.region,
           "Draw the boundary of a region: circle=LON,LAT,RADIUS, ellipse=..., channel=... or "
           "a file; see calotte help region")
-      ->type_name("REGION");
+      ->type_name("SHAPE|FILE");
   add_inside(command, arguments.inside);
   add_coastlines(command, arguments.coastlines);
   command.add_option("--size", look.size, "Width in pixels (points in SVG and PDF), 64 to 16384")

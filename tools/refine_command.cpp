@@ -297,7 +297,7 @@ void add(CLI::App& app, const Verb& verb) {
       command
           ->add_option("--region", request->region,
                        "Part of the sphere whose cells change, see calotte help region")
-          ->type_name("REGION")
+          ->type_name("SHAPE|FILE")
           ->excludes(file);
   add_inside(*command, request->inside);
   CLI::Option* const factor =

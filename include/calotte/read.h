@@ -76,7 +76,16 @@ PointLines read_point_lines(const std::string& path, Columns columns = Columns::
 ///         the file's name; file.
 Surface read_domain(const std::string& path);
 
-/// Reads a region of the sphere. The name selects the format. An edge is the shorter arc of a great
+/// A region of the sphere by a word: a shape and its values, or the name of a file. Longitudes and
+/// latitudes are degrees; lengths have a unit, km, m or deg.
+///
+///     circle=LON,LAT,RADIUS                 circle()
+///     ellipse=LON,LAT,MAJOR,MINOR,BEARING   ellipse(); the bearing in degrees from north
+///     box=WEST,SOUTH,EAST,NORTH             box()
+///     channel=LOWER,UPPER                   channel()
+///     land=FILE,LON,LAT                     land_around() of read_coast()
+///
+/// The name of a file selects its format. An edge is the shorter arc of a great
 /// circle between two corners; a parallel needs corners at short intervals. Rings may run either
 /// way, be closed and be cut at a meridian, as for enclosed_region().
 ///
@@ -90,11 +99,14 @@ Surface read_domain(const std::string& path);
 /// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229
 /// m. A custom polygon may run either way: its inside is the side of the line Point. The case of
 /// keywords does not matter.
-/// \throws Error parse, naming the line, or the feature and its ring; as Surface::within(), with
-///         the file's name; invalid_argument for an unknown suffix; file.
-Surface read_region(const std::string& path);
+/// \param radius_km radius of the sphere to which lengths in km and m refer.
+/// \throws Error invalid_argument for a word of another shape or other values, naming what they
+///         are; as the functions of the shapes; parse, naming the line, or the feature and its
+///         ring; as Surface::within(), with the file's name; invalid_argument for an unknown
+///         suffix; file.
+Surface read_region(const std::string& word, double radius_km = earth_radius_km);
 
-/// The same from a stream.
+/// The region of a file, from a stream.
 /// \param name the name of the stream in messages, which selects the format.
 Surface read_region(std::istream& in, const std::string& name);
 
@@ -156,8 +168,8 @@ enum class RasterQuantity {
 
 /// The choice of a raster in a file.
 struct RasterChoice {
-  /// The variable. Default: cellWidth for widths, density for densities, else the file's only
-  /// raster.
+  /// The variable. Default: cellWidth for widths and density for densities, if the file has them;
+  /// else its only raster.
   std::string variable = {};
   RasterQuantity quantity = RasterQuantity::any; ///< Default: any.
   /// The sphere, a part of it, or a plane. A raster of a quantity must cover it, see
@@ -177,15 +189,16 @@ struct RasterChoice {
 /// widths to km, in a plane to the unit of x where both have units; heights to m; fractions may be
 /// in %. Depths, by the attribute positive "down" or a standard_name, become heights. A missing
 /// value is an error, except for RasterQuantity::any and for land among depths, which ocean models
-/// leave out.
-/// \throws Error parse, naming the variable and its index, and for a file with several rasters;
-/// file.
+/// leave out. Widths of the sphere above 2000 need a unit: they may be metres.
+/// \throws Error parse, naming the variable and its index, for a file with several rasters, and for
+///         another variable, with the names of those that are there; file.
 Raster read_raster(const std::string& path, const RasterChoice& choice = {});
 
 /// Reads fractions of land: those of a file, 1 minus those of the sea, or 1 where a height is not
 /// below 0.
 /// \param quantity height, land_fraction or sea_fraction.
-/// \throws Error as read_raster().
+/// \throws Error as read_raster(); parse, for heights of which none is below 0: they may be depths
+///         or fractions.
 Raster read_land(const std::string& path, const std::string& variable = {},
                  RasterQuantity quantity = RasterQuantity::height);
 

@@ -122,6 +122,19 @@ Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_mi
 /// \throws Error invalid_argument for a value out of range, and for the whole sphere.
 Surface channel(double lower, double upper, int corners = 360);
 
+/// The part of the sphere between two meridians and two parallels. Its sides on meridians are arcs
+/// of great circles. Those on parallels have corners at equal longitudes, so many that no arc is
+/// farther from its parallel than 1/60 000 000 of the side: a thousandth of a cell where 60 000
+/// cells lie along it, and at most 70 cm on the Earth.
+/// \param west, east longitudes, radians, finite; the box runs eastward from west to east, over the
+///        date line if east < west. 2 pi apart they give the band between the parallels.
+/// \param south, north latitudes, radians, as for a channel(). A box up to a pole is a sector of
+/// its
+///        cap.
+/// \throws Error invalid_argument for a value out of range, a box without width, one wider than
+///         2 pi, and for the whole sphere.
+Surface box(double west, double south, double east, double north);
+
 /// The region that rings enclose. One rule applies to all rings of users and files, in either
 /// direction: they enclose the side without poles, as on a map of longitudes and latitudes; if both
 /// sides have a pole, or the rings pass through one, they enclose the smaller side, and of two

@@ -158,8 +158,10 @@ void choose_start(Recipe& recipe, bool uniform) {
 double within_range(double implied, double least, const std::string& where = "") {
   const double cells = std::round(implied);
   require(cells >= least && cells <= double(most_points),
-          "the widths require {} cells{}, but a grid has {} to {}; give other widths{}", implied,
-          where, least, most_points, where.empty() ? "" : " or a larger region");
+          "the widths require {} cells{}, but a grid has {} to {}; give {}{}", implied, where,
+          least, most_points,
+          cells < least ? "narrower ones (on the sphere widths are km, not metres)" : "wider ones",
+          where.empty() ? "" : " or a larger region");
   return cells;
 }
 

@@ -12,6 +12,7 @@
 #include <calotte/write.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,21 @@ std::string read_file(const std::string& path);
 /// Writes bytes to a file, which is complete or absent, as with write().
 /// \throws Error file.
 void write_file(const std::string& path, std::string_view bytes);
+
+/// A number with a unit.
+struct Measure {
+  double value = 0;
+  std::string unit; ///< letters, or "" if there are none
+};
+
+/// Reads a number and a unit: "60km", "60 km", "60"; nothing for other text, such as a file's name.
+std::optional<Measure> measure_of(const std::string& text);
+
+/// The file that a word of read_region() names; empty if it names none.
+std::string region_file(const std::string& word);
+
+/// The word of read_region() whose file, if it names one, is relative to a folder.
+std::string region_beside(const std::string& folder, const std::string& word);
 
 /// The text files of MPAS-Tools' culler with option -c. Forward has a line for each cell of a
 /// source: the 0-based id in the new mesh, or -1. Backward has one for each cell of the new mesh.

@@ -512,7 +512,76 @@ TEST_CASE("rings that bound no region are refused, with ring and corner") {
                   " meet; rings may neither cross nor touch"));
 }
 
+/// The area between two meridians and two parallels.
+double area_of_box(double width, double south, double north) {
+  return width * degree * (std::sin(north * degree) - std::sin(south * degree));
+}
+
+Surface box_in_degrees(double west, double south, double east, double north) {
+  return box(west * degree, south * degree, east * degree, north * degree);
+}
+
+TEST_CASE("a box lies between meridians and parallels, over the date line and up to poles") {
+  struct Sides {
+    double west, south, east, north, width;
+  };
+  for (const auto& [west, south, east, north, width] :
+       std::vector<Sides>{{-20, 30, 40, 60, 60},
+                          {170, -20, -170, 0, 20},
+                          {10, -5, 0, 5, 350},
+                          {-20, 60, 40, 90, 60},
+                          {100, -90, 190, -50, 90},
+                          {20, -90, 50, 90, 30},
+                          {-170, -80, 170, 80, 340},
+                          {-180, 40, 180, 60, 360},
+                          {0, 70, 360, 90, 360},
+                          {370, 10, 380, 20, 10},
+                          {5, -0.001, 5.001, 0, 0.001}}) {
+    CAPTURE(west);
+    CAPTURE(south);
+    const Surface region = box_in_degrees(west, south, east, north);
+    CHECK(region.area() == doctest::Approx(area_of_box(width, south, north)).epsilon(1e-6));
+    CHECK_NOTHROW(Surface::sphere().within(region.rings()));
+    test::Random random(3);
+    for (int k = 0; k < 2000; ++k) {
+      const Vec3 point = random.direction();
+      const auto [longitude, latitude] = base_detail::lonlat_of(point);
+      const double along = std::fmod(longitude - west + 1080, 360),
+                   inside = std::min({latitude - south, north - latitude, width == 360 ? 1 : along,
+                                      width == 360 ? 1 : width - along});
+      if (std::abs(inside) > 1e-5) // of the arcs' distance from parallels
+        REQUIRE(region.contains(vector(point)) == (inside > 0));
+    }
+  }
+}
+
+TEST_CASE("the arcs of a box keep near its parallels, with fewer corners towards the equator") {
+  for (const double latitude : {1.0, 20.0, 45.0, 60.0, 89.0}) {
+    const DoubleMatrix ring = box_in_degrees(0, 0, 90, latitude).rings()[0];
+    double worst = 0;
+    for (Eigen::Index i = 0; i < ring.cols(); ++i) {
+      const Eigen::Vector3d a = ring.col(i), b = ring.col((i + 1) % ring.cols()),
+                            middle = (a + b).normalized();
+      if (std::abs(a.z() - b.z()) < 1e-12 && a.z() > 0.01)
+        worst = std::max(worst, std::asin(middle.z()) - latitude * degree);
+    }
+    CAPTURE(latitude);
+    const double side = pi / 2 * std::cos(latitude * degree);
+    CHECK(worst < side / 60e6 + 1e-15);
+    CHECK(worst > side / 70e6);
+  }
+  CHECK(box_in_degrees(0, -10, 60, 0).rings()[0].cols() < 1600);
+}
+
 TEST_CASE("values out of range") {
+  CHECK(test::has(refusal([] { box_in_degrees(0, 40, 20, 20); }),
+                  "the box's latitudes are 40 and 20 degrees; give the lower one first"));
+  CHECK(test::has(refusal([] { box_in_degrees(10, 20, 10, 40); }), "the box has no width"));
+  CHECK(test::has(refusal([] { box_in_degrees(180, 20, -180, 40); }), "the box has no width"));
+  CHECK(test::has(refusal([] { box_in_degrees(-180, 20, 190, 40); }),
+                  "the box runs 370 degrees eastward from its west side, more than all around"));
+  CHECK(test::has(refusal([] { box_in_degrees(-180, -90, 180, 90); }), "is the whole sphere"));
+  CHECK(test::has(refusal([] { box(NAN, 0, 1, 1); }), "a longitude of the box is not finite"));
   CHECK(test::has(refusal([] { circle({0, 0, 0}, 1); }), "the circle's centre is no direction"));
   CHECK(test::has(refusal([] { circle({1, 0, 0}, 4); }), "the circle's radius is 4; give 1e-6"));
   CHECK(test::has(refusal([] { circle({1, 0, 0}, NAN); }), "the circle's radius is nan"));
@@ -523,8 +592,10 @@ TEST_CASE("values out of range") {
                   }),
                   "the ellipse's semi-axes are 1 and 1.1"));
   CHECK(test::has(refusal([] { ellipse({1, 0, 0}, 1, 1, INFINITY); }), "the ellipse's bearing"));
-  CHECK(test::has(refusal([] { channel(1, 0.5); }), "the channel's latitudes are 1 and 0.5"));
-  CHECK(test::has(refusal([] { channel(0, 2); }), "the channel's latitudes are 0 and 2"));
+  CHECK(test::has(refusal([] { channel(1, 0.5); }),
+                  "the channel's latitudes are 57.2958 and 28.6479 degrees"));
+  CHECK(test::has(refusal([] { channel(0, 2); }),
+                  "the channel's latitudes are 0 and 114.592 degrees"));
   CHECK(test::has(refusal([] { channel(-pi / 2, pi / 2); }), "is the whole sphere"));
 }
 

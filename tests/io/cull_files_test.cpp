@@ -43,6 +43,7 @@ struct RasterFile {
   std::vector<double> latitudes, longitudes;
   std::vector<double> values; ///< latitudes x longitudes
   NetcdfAttributes attributes = {};
+  std::string second = ""; ///< another variable of the same values, or none
 };
 
 void write_raster(const std::string& path, const RasterFile& raster) {
@@ -53,6 +54,9 @@ void write_raster(const std::string& path, const RasterFile& raster) {
             lon = file.variable(raster.lon, NetcdfType::float64, {columns});
   const int z =
       file.variable(raster.variable, NetcdfType::float64, {rows, columns}, raster.attributes);
+  const int second = raster.second.empty() ? -1
+                                           : file.variable(raster.second, NetcdfType::float64,
+                                                           {rows, columns}, raster.attributes);
   file.begin();
   const auto put = [&](int variable, const std::vector<double>& values, std::int64_t width) {
     file.put(variable,
@@ -63,6 +67,8 @@ void write_raster(const std::string& path, const RasterFile& raster) {
   put(lat, raster.latitudes, 1);
   put(lon, raster.longitudes, 1);
   put(z, raster.values, std::ssize(raster.longitudes));
+  if (second >= 0)
+    put(second, raster.values, std::ssize(raster.longitudes));
   file.commit();
 }
 
@@ -131,11 +137,39 @@ TEST_CASE("rasters of land: heights, fractions, order of coordinates, packed num
   file.longitudes.push_back(file.longitudes.front() + 360);
   file.values.clear();
   for (std::size_t k = 0; k < file.latitudes.size() * file.longitudes.size(); ++k)
-    file.values.push_back(0);
+    file.values.push_back(k == 100 ? -1 : 0);
   write_raster(path, file);
   const Raster level = read_land(path, "z");
   CHECK(level.values.rows() == 72);
-  CHECK(level.values.minCoeff() == 1);
+  CHECK(level.values.sum() == 72 * 36 - 1);
+}
+
+TEST_CASE(
+    "the only raster of a file needs no name; of several, and for a wrong name, all are listed") {
+  const Scratch scratch;
+  const std::string path = scratch / "raster.nc";
+  RasterFile file = heights(10);
+  for (double& value : file.values)
+    value = 300;
+  write_raster(path, file);
+  CHECK(read_raster(path, {.quantity = RasterQuantity::cell_width}).values.minCoeff() == 300);
+  CHECK(read_raster(path, {.quantity = RasterQuantity::density}).values.minCoeff() == 300);
+  file.second = std::string("topo");
+  write_raster(path, file);
+  const auto refusal = [&](const RasterChoice& choice) {
+    return std::string(error_of([&] { read_raster(path, choice); }).what()).substr(path.size());
+  };
+  CHECK(refusal({}) ==
+        ": 2 variables are rasters of latitudes and longitudes: z, topo; name one, or "
+        "give a file with one");
+  CHECK(
+      refusal({.quantity = RasterQuantity::cell_width}) ==
+      ": no variable cellWidth; 2 variables are rasters of latitudes and longitudes: z, topo; name "
+      "one of them cellWidth, or give a file with one");
+  CHECK(refusal({.variable = "height"}) == ": no variable height; there are z, topo");
+  file.second = std::string("cellWidth");
+  write_raster(path, file);
+  CHECK(read_raster(path, {.quantity = RasterQuantity::cell_width}).values.minCoeff() == 300);
 }
 
 TEST_CASE("rasters of land that are refused, in one line each") {
@@ -152,7 +186,15 @@ TEST_CASE("rasters of land that are refused, in one line each") {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal([](RasterFile& r) { r.variable = std::string("other"); }) ==
-        "no variable z; give z(lat, lon)");
+        "no variable z; there are other");
+  CHECK(has(
+      refusal([](RasterFile& r) {
+        for (double& height : r.values)
+          height = std::abs(height);
+      }),
+      "no height is below 0, so that all is land; if the values are depths, give their variable "
+      "the attribute positive = \"down\"; if they are fractions of land or sea, say so "
+      "(--raster-values)"));
   CHECK(refusal([&](RasterFile& r) { r.values[72 * 3 + 5] = nan; }) ==
         "z[3][5] = nan is not finite; correct it");
   CHECK(refusal([&](RasterFile& r) {

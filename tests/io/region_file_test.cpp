@@ -208,7 +208,7 @@ TEST_CASE("GeoJSON: an ocean around a pole whose cut differs by rounding") {
 TEST_CASE("GeoJSON: positions") {
   CHECK(has(refusal_of_region("R.geojson", polygon_of({square, "[0,0],[0,91],[1,1]"})),
             "R.geojson: position 1 of ring 1 is [0.0, 91.0], no longitude and latitude in "
-            "degrees; correct it"));
+            "degrees; give longitude first"));
   CHECK(has(refusal_of_region("R.json", polygon_of({"[0,0],[0,1e999],[1,1]"})),
             "a number that no double can hold"));
   CHECK(has(refusal_of_region("R.geojson", polygon_of({"[-180,-20],[180,-20],[180,20],[-180,20]"})),

@@ -4,6 +4,7 @@
 #include "support/files.h"
 
 #include <calotte/error.h>
+#include <calotte/ocean.h>
 #include <calotte/read.h>
 #include <calotte/widths.h>
 
@@ -147,12 +148,63 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
   CHECK(rules.refused("[cell-width]\nblend = [60, 20, 5]\nshare = \"half.nc\"") ==
         " line 2: blend holds 3 rules; give [A, B]");
   CHECK(rules.refused("[cell-width]\nblend = [60, 20]\nshare = 1") ==
-        " line 3: share is no text; give the name of a file in quotes");
+        " line 3: share is no text; give a region in quotes");
   CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").widths.step() == 0.5);
   test::write_text(rules.path(),
-                   "[cell-width]\nminimum = [{by-distance = \"a.nc\"}, {within = \"b\"}]");
-  CHECK(files_of_rules(rules.path()) ==
-        std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
+                   "[cell-width]\nminimum = [{by-distance = \"a.nc\"}, {within = \"b.pts\"}, "
+                   "{within = \"box=0,0,9,9\"}, {share = \"land=c.nc,1,2\"}]");
+  CHECK(files_of_rules(rules.path()) == std::vector<std::string>{rules.beside("a.nc"),
+                                                                 rules.beside("b.pts"),
+                                                                 rules.beside("c.nc")});
+}
+
+TEST_CASE("a region of a rule is a shape by words, too") {
+  const Rules rules;
+  CHECK(rules.widths("width = 5\nwithin = \"circle=90,0,500km\"") ==
+        evaluate(Widths::where(circle({0, 1, 0}, 500 / earth_radius_km), 5.0, Widths::no_demand),
+                 sample_points()));
+  CHECK(rules.widths("blend = [60, 20]\nshare = \"box=-20,-20,60,60\"\nover = 3000") ==
+        evaluate(Widths::blend(60.0, 20.0,
+                               WidthShare(read_region("box=-20,-20,60,60"), {{{0, 1}, {3000, 0}}})),
+                 sample_points()));
+  CHECK(rules.widths("width = 5\nwithin = \"land=island.geojson,15,5\"") ==
+        rules.widths("width = 5\nwithin = \"island.geojson\""));
+  CHECK(rules.refused("[cell-width]\nwidth = 5\nwithin = \"circle(0,0,9km)\"") ==
+        " line 1: circle(0,0,9km): this is no shape; write circle=LON,LAT,RADIUS, as in "
+        "circle=-105,40,1000km");
+}
+
+TEST_CASE("islands and lakes below the least area of a rule do not count") {
+  const Rules rules;
+  const Coast all = read_coast(rules.beside("islands.geojson"));
+  test::write_text(rules.beside("few.geojson"), R"({"type": "MultiPolygon", "coordinates":
+      [[[[-9, -5], [-1, -5], [-1, 5], [-9, -5]]], [[[50, 5], [50.1, 5], [50.1, 5.1], [50, 5]]]]})");
+  const std::string grows = "near = 10\nfar = 60\nover = 600\n",
+                    few = "by-distance = \"few.geojson\"\n";
+  const Coast large = without_small(read_coast(rules.beside("few.geojson")),
+                                    1000 / (earth_radius_km * earth_radius_km));
+  CHECK(large.rings.size() == 1);
+  const WidthProfile profile{{{0, 10}, {600, 60}}};
+  CHECK(rules.widths(few + grows + "least-area = 1000") ==
+        evaluate(Widths::by_distance(shores(large), profile), sample_points()));
+  CHECK(rules.widths(few + grows + "side = \"sea\"\nleast-area = 1000") ==
+        evaluate(Widths::by_distance(large, profile, CoastSide::sea), sample_points()));
+  CHECK(rules.widths("minimum = [50, {by-channel = \"islands.geojson\", cells = 4, least = 10, "
+                     "least-area = 1000}]") ==
+        evaluate(Widths::minimum({50.0, Widths::by_channel(all, {.cells = 4, .least = 10})}),
+                 sample_points()));
+  CHECK(rules.refused("[cell-width]\n" + few + grows + "least-area = 1e9") ==
+        " line 1: all land of the coast is smaller than the least area; give a smaller one");
+}
+
+TEST_CASE("the raster of a rule is the only one of its file, or a variable that it names") {
+  const Rules rules;
+  write_raster(rules.beside("one.nc"), 77);
+  CHECK(rules.widths("raster = \"one.nc\"") == DoubleVector::Constant(5, 77));
+  CHECK(rules.widths("raster = \"one.nc\"\nvariable = \"z\"") == DoubleVector::Constant(5, 77));
+  const std::string message =
+      test::error_of([&] { rules.widths("raster = \"one.nc\"\nvariable = \"w\""); }).what();
+  CHECK(message == rules.beside("one.nc") + ": no variable w; there are z");
 }
 
 TEST_CASE("the rules of a minimum have names") {
@@ -244,7 +296,7 @@ TEST_CASE("files of rules that are none are refused with their line") {
         " line 2: a rule has one of the keys minimum, maximum, sum, blend, by-latitude, "
         "by-distance, around, by-channel, by-depth, raster, polygons, width; this one has widths");
   CHECK(rules.refused("[cell-width]\nwidth = -60") ==
-        " line 2: width is not a positive number; give one");
+        " line 2: width is not a positive number; give one without quotes or unit");
   CHECK(rules.refused("[cell-width]\n\nminimum = [60,\n {width = 5, over = 3}]") ==
         " line 4: the rule does not take over; it takes gradient, least, most, times, width, "
         "within; see calotte help widths");

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command and Python take the same words and make the same of them."""
 import json
+import math
 import os
 import subprocess
 
@@ -23,7 +24,8 @@ def made(*words):
 
 
 REGIONS = ["circle=-105,40,1000km", "circle=-105,40,1000 km", "circle=-105,40,1000000m",
-           "circle=-105,40,9deg", "ellipse=138,38,1580km,1000km,45", "channel=-23.5,23.5"]
+           "circle=-105,40,9deg", "ellipse=138,38,1580km,1000km,45", "channel=-23.5,23.5",
+           "box=-20,30,40,60", "box=170,-20,-170,0", "box=-20,60,40,90", "box=-180,10,180,50"]
 
 
 @pytest.mark.parametrize("word", REGIONS)
@@ -37,6 +39,8 @@ def test_regions(tmp_path, word):
 @pytest.mark.parametrize("word", ["circle=-105,40", "circle=-105,40,1000", "circle=-105,95,10deg",
                                   "circle=-105,40,-3km", "circle=a,40,10km", "circle=0,0,10miles",
                                   "ellipse=138,38,1580km,1000km", "channel=10", "square=1,2",
+                                  "box=0,40,20,20", "box=10,0,10,20", "box=-180,-90,180,90", "box=1,2,3",
+                                  "circle(-105,40,1000km)", "bbox=0,0,20,20", "europe",
                                   "channel=-91,3"])
 def test_words_that_are_no_region(word):
     result = run("cvt", "--cells", 60, "--region", word, "-o", "never.vtp")
@@ -57,6 +61,12 @@ def test_a_radius_has_the_units_of_the_command():
     for radius in ("1000", "10 miles", "-3km", "far", 0, -1.0):
         with pytest.raises(calotte.Error):
             calotte.circle((0, 0), radius)
+
+
+def test_a_box_is_the_surface_of_its_word():
+    assert calotte.box(-20, 30, 40, 60) == calotte._arguments.surface("box=-20,30,40,60")
+    area = math.radians(60) * (math.sin(math.radians(60)) - math.sin(math.radians(30)))
+    assert calotte.box(-20, 30, 40, 60).area == pytest.approx(area, rel=1e-7)
 
 
 DENSITIES = [["uniform"], ["x8"], ["x4"], ["tanh:lon=0,lat=-20,beta=20deg,alpha=10deg,gamma=x3"],
@@ -197,9 +207,16 @@ def test_culls_by_every_kind_of_land(tmp_path):
         file.createVariable("z", "f8", ("lat", "lon"))[:] = height
     (tmp_path / "barrier.geojson").write_text(json.dumps(
         {"type": "LineString", "coordinates": [[-60, 60], [60, 60]]}))
+    island, continent = ([[[a, b], [a + w, b], [a + w, b + w], [a, b + w], [a, b]]]
+                         for a, b, w in ((100, 0, 2), (0, 0, 40)))
+    (tmp_path / "land.geojson").write_text(json.dumps(
+        {"type": "MultiPolygon", "coordinates": [island, continent]}))
+    lands = []
     for options, words in (
             (["--raster", tmp_path / "raster.nc", "--raster-variable", "z"],
              {"raster": tmp_path / "raster.nc"}),
+            (["--land", tmp_path / "land.geojson", "--least-area", "100000", "--land-fraction", "0"],
+             {"land": tmp_path / "land.geojson", "least_area": 1e5, "land_fraction": 0}),
             (["--field", "latCell", "--sea-below", "0.5"], {"field": "latCell", "sea_below": 0.5}),
             (["--field", "latCell", "--sea-from", "0.5", "--barrier",
               tmp_path / "barrier.geojson"],
@@ -210,6 +227,11 @@ def test_culls_by_every_kind_of_land(tmp_path):
                 netcdf.Dataset(tmp_path / "python.nc") as b:
             assert (a["areaCell"][:] == b["areaCell"][:]).all()
             assert a.dimensions["nCells"].size == report["cells"] < 642
+        assert sum(cells for cells, _, _ in report["severed_parts"]) <= report["severed"]
+        lands.append(report["land"])
+    all_land = calotte.cull(tmp_path / "globe.nc", tmp_path / "python.nc",
+                            land=tmp_path / "land.geojson", land_fraction=0)
+    assert all_land["land"] > lands[1]  # with the island
 
 
 def values_of(report, name=""):

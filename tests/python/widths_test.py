@@ -86,6 +86,14 @@ def test_rules_by_a_coast(tmp_path):
     land = widths.by_distance(coast, near=10, far=60, over=600, side="land")
     assert land(0, 0) == 60 and np.isnan(land(50, 0))
     assert np.isnan(widths.by_channel(coast, 5, cells=4)(0, 0))
+    islet = [[[60, 0], [61, 0], [61, 1], [60, 1], [60, 0]]]
+    both = written(tmp_path, "b.geojson", json.dumps({"type": "MultiPolygon", "coordinates": [square, islet]}))
+    near = dict(near=10, far=60, over=600)
+    assert widths.by_distance(both, **near)(60, 0) == pytest.approx(10, abs=1e-3)
+    assert widths.by_distance(both, least_area=2e4, **near)(60, 0) == 60
+    assert widths.by_distance(both, least_area=2e4, side="sea", **near)(60.5, 0.5) == 60
+    with pytest.raises(calotte.Error, match="no area"):
+        widths.by_distance([(0, 0), (1, 1)], least_area=5, **near)
     band = widths.around([(-10, 0), (10, 0)], 5, 200)
     assert band(0, 1) == 5 and np.isnan(band(0, 2))
 

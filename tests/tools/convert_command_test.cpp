@@ -492,7 +492,7 @@ TEST_CASE("cull: the coast of GSHHG, maps of cells; the land around a place as a
   check_refusals(bench, "cut global.nc -o bad.nc",
                  "--region land=" + coast + ",-150,0 | 2 | no ring of the coast contains");
   check_refusals(bench, "cut global.nc -o bad.nc",
-                 "--region land=" + coast + ",134,-95 | 2 | no angle from -90 to 90");
+                 "--region land=" + coast + ",134,-95 | 2 | no latitude from -90 to 90");
   bench.file("x.nc", "");
   check_refusals(bench, "cut global.nc", R"(
 --region land=a,b.nc,0,0 -o bad.nc | 3 | a,b.nc

@@ -83,10 +83,10 @@ TEST_CASE("a file of options takes a width in km as a number or as text") {
 TEST_CASE("widths that are none are refused") {
   const Bench bench;
   check_refusals(bench, "cvt -o mesh.vtp", R"(
---cell-width 60m | 2 | --cell-width: "60m" is not a positive number; give km, such as 60km
+--cell-width 60m | 2 | --cell-width: "60m" is in m; give km, such as 60km
 --cell-width 0km | 2 | --cell-width: "0km" is not a positive number
 --cell-width 0 | 2 | --cell-width: "0" is not a positive number
---cell-width '60 miles' | 2 | --cell-width: "60 miles" is not a positive number
+--cell-width '60 miles' | 2 | --cell-width: "60 miles" is in miles; give km, such as 60km
 --cell-width 60.nc | 3 | 60.nc
 --cell-width 960km --transition 100km | 2 | 960 km holds no polygons; leave --transition out
 --cell-width 60km --rectangle 0,0,1,1 | 2 | the plane has the unit of its coordinates; give a number in that unit

@@ -78,8 +78,8 @@ TEST_CASE("rings of a file run either way, and --inside tells another side of th
   CHECK(nearest(arctic, directions_in("180 80\n", Columns::lonlat).col(0)) < 6 * degree);
   check_refusals(bench, "cvt --cells 100 -o b.vtp", R"(
 --inside 1,2 | 2 | --inside requires --region
---region clockwise.geojson --inside 1 | 2 | --inside 1: the number of values is 1 instead of 2; give LON,LAT,
---region clockwise.geojson --inside 1,95 | 2 | --inside 1,95: "95" is no angle from -90 to 90 degrees
+--region clockwise.geojson --inside 1 | 2 | --inside 1: this is no place; give LON,LAT in degrees, as in -105,40
+--region clockwise.geojson --inside 1,95 | 2 | --inside 1,95: this is no place; give LON,LAT in degrees
 --region clockwise.geojson --inside 0,5 | 2 | --inside 0,5: the place that is to be inside the region is on
 )");
 }

@@ -21,7 +21,7 @@ GROUPS = [
     ("Points", ["random_points", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",
                 "bisected_icosahedron", "lat_lon_sphere", "cubed_sphere", "hexagonal_lattice",
                 "bisect", "from_lonlat", "to_lonlat"]),
-    ("Surfaces", ["circle", "ellipse", "channel", "polygon", "rectangle", "periodic_box",
+    ("Surfaces", ["circle", "ellipse", "box", "channel", "polygon", "rectangle", "periodic_box",
                   "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]

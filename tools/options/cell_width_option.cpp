@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace calotte::tools {
@@ -36,7 +37,13 @@ void set_widths(WidthWords& words, const std::string& text) {
 CLI::Validator width_or_file() {
   return {[width = kilometres()](std::string& text) {
             std::string number = text;
-            return measure_of(text) ? width(number) : std::string();
+            const bool starts_as_number = text.find_first_of("0123456789") == 0;
+            std::error_code error;
+            return measure_of(text) ||
+                           (starts_as_number && !std::filesystem::path(text).has_extension() &&
+                            !std::filesystem::exists(text, error))
+                       ? width(number)
+                       : std::string();
           },
           ""};
 }

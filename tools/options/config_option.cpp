@@ -79,7 +79,10 @@ void give(CLI::Option& option, const std::vector<ConfigValue>& values,
           const std::filesystem::path& folder) {
   for (const ConfigValue& value : values) {
     const bool file = takes_file(option) && !is_no_file(option, value.text);
-    option.add_result(file ? (folder / value.text).string() : value.text);
+    const bool region = type_of(option).starts_with("SHAPE|");
+    option.add_result(region ? region_beside(folder, value.text)
+                      : file ? (folder / value.text).string()
+                             : value.text);
   }
   option.run_callback();
 }

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/global_option.h"
 
+#include "io/command.h"
 #include "options/model_option.h"
 #include "text/text.h"
 
 #include <calotte/write.h>
 
 #include <CLI/App.hpp>
+
+#include <filesystem>
+#include <system_error>
 
 namespace calotte::tools {
 
@@ -16,6 +20,13 @@ void add_global(CLI::App& command, std::string& path) {
                   "MPAS file of the sphere with connectivity, of any program, with any fields.")
       ->type_name("FILE")
       ->required();
+}
+
+void require_mpas_source(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error) && !is_netcdf_file(path))
+    refuse_path(path, "it is no MPAS file; make one of a mesh with calotte convert {} mesh.nc",
+                path);
 }
 
 void require_mpas_name(const std::string& output) {

@@ -12,6 +12,9 @@ namespace calotte::tools {
 /// Adds the positional option GLOBAL.
 void add_global(CLI::App& command, std::string& path);
 
+/// \throws Error invalid_argument for a file that is no NetCDF file; file.
+void require_mpas_source(const std::string& path);
+
 /// \throws Error invalid_argument unless the name is that of a complete MPAS file.
 void require_mpas_name(const std::string& output);
 

@@ -28,32 +28,32 @@ void require_positive(const std::string& option, double value, const std::string
           value, remedy);
 }
 
-std::optional<Measure> measure_of(const std::string& text) {
-  const char *begin = text.data(), *const end = begin + text.size();
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  if (text.empty() || letter(*begin)) // no inf or nan
-    return std::nullopt;
-  Measure measure;
-  auto [stop, problem] = std::from_chars(begin, end, measure.value);
-  if (problem != std::errc() || stop[-1] == '.') // 60.nc is a file
-    return std::nullopt;
-  stop = std::find_if(stop, end, [](char c) { return c != ' '; });
-  if (!std::all_of(stop, end, letter))
-    return std::nullopt;
-  measure.unit.assign(stop, end);
-  return measure;
-}
-
 CLI::Validator kilometres() {
   return {[](std::string& text) -> std::string {
             const std::optional<Measure> width = measure_of(text);
-            if (!width || (!width->unit.empty() && width->unit != "km") || !(width->value > 0) ||
-                !std::isfinite(width->value))
+            if (width && !width->unit.empty() && width->unit != "km")
+              return message("\"{}\" is in {}; give km, such as 60km", text, width->unit);
+            if (!width || !(width->value > 0) || !std::isfinite(width->value))
               return message("\"{}\" is not a positive number; give km, such as 60km", text);
             text = shortest(width->value);
             return "";
           },
           "KM"};
+}
+
+CLI::Validator square_kilometres() {
+  return {[](std::string& text) -> std::string {
+            std::string number = text;
+            for (const std::string_view unit : {"km2", "km^2"})
+              if (number.ends_with(unit))
+                number = number.substr(0, number.find(unit));
+            const std::optional<Measure> area = measure_of(number);
+            if (!area || !area->unit.empty() || !(area->value >= 0) || !std::isfinite(area->value))
+              return message("\"{}\" is no area; give km^2, such as 1000", text);
+            text = shortest(area->value);
+            return "";
+          },
+          "KM2"};
 }
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "help/cli_forward.h"
+#include "io/command.h"
 
 #include <Eigen/Core>
 
@@ -42,17 +43,11 @@ Eigen::Vector3d direction_at(double longitude, double latitude);
 /// \param remedy "one such as 10". \throws Error invalid_argument unless positive and finite.
 void require_positive(const std::string& option, double value, const std::string& remedy);
 
-/// A number with a unit.
-struct Measure {
-  double value = 0;
-  std::string unit; ///< letters, or "" if there are none
-};
-
-/// Reads a number and a unit: "60km", "60 km", "60"; nothing for other text, such as a file's name.
-std::optional<Measure> measure_of(const std::string& text);
-
 /// Positive numbers of km, for an option's transform: "60", "60km".
 CLI::Validator kilometres();
+
+/// Areas in km^2, >= 0, for an option's transform: "1000", "1000km2", "1000km^2".
+CLI::Validator square_kilometres();
 
 /// Whole numbers in a range, for an option's transform: decimal, also with leading zeros.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);

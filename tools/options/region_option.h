@@ -30,21 +30,16 @@ void add_region(CLI::App& command, RegionWords& words);
 /// Rejects words that exclude each other. \throws Error invalid_argument.
 void require_region_words(const RegionWords& words);
 
-/// The region of the word of --region: a file, or circle=LON,LAT,RADIUS,
-/// ellipse=LON,LAT,MAJOR,MINOR,BEARING, channel=LOWER,UPPER or land=FILE,LON,LAT, see `calotte help
-/// region`. Reads the file, if there is one.
+/// The region of the word of --region, see read_region(). Reads the file, if there is one.
 /// \param inside LON,LAT of the region, where its rings may have it on either side; or empty.
 /// \param radius_km radius of the sphere to which lengths in km refer.
-/// \throws Error invalid_argument naming the word and the remedy; as read_region, region_around,
-///         read_coast and land_around.
+/// \throws Error invalid_argument naming the option, the word and the remedy; as read_region() and
+///         region_around().
 Surface region_of(const std::string& word, const std::string& inside,
                   double radius_km = earth_radius_km);
 
 /// Whether the word has a length in km, as circle=10,50,1500km does.
 bool has_kilometres(const std::string& word);
-
-/// The file that the word names; empty if it names none.
-std::string region_file(const std::string& word);
 
 /// A fingerprint of the corners, a line for a run's configuration.
 std::string region_configuration(const Surface& region);

@@ -45,8 +45,8 @@ GeoArea make_area(const GeoGeometry& geometry, const std::string& name) {
 void require_degrees(const GeoPosition& position, const std::string& name,
                      const std::string& what) {
   if (!are_degrees(position))
-    fail_file(name, "{} is [{}, {}], no longitude and latitude in degrees; correct it", what,
-              Json(position[0]).dump(), Json(position[1]).dump());
+    fail_file(name, "{} is [{}, {}], no longitude and latitude in degrees; give longitude first",
+              what, Json(position[0]).dump(), Json(position[1]).dump());
 }
 
 std::optional<GeoPosition> read_inside(const GeoGeometry& geometry, const std::string& name) {

@@ -193,26 +193,54 @@ RasterAxes require_axes(const NetcdfReader& file, const std::string& variable) {
   file.fail("no coordinate variable {}; give {}({}) in degrees", name, name, name);
 }
 
-std::string only_raster(const NetcdfReader& file, bool of_plane) {
+std::string axes_words(bool of_plane) { return of_plane ? "x and y" : "latitudes and longitudes"; }
+
+std::vector<std::string> raster_names(const NetcdfReader& file, bool of_plane) {
   std::vector<std::string> found;
   for (const std::string& name : file.variable_names())
     if (file.is_numeric(name) &&
         (of_plane ? file.dimensions_of(name).size() == 2 : variable_axes(file, name).has_value()))
       found.push_back(name);
-  const std::string axes = of_plane ? "x and y" : "latitudes and longitudes";
+  return found;
+}
+
+/// The only raster of a file.
+/// \param usual the name of the variable that is meant if there are several, or "".
+std::string only_raster(const NetcdfReader& file, bool of_plane, const std::string& usual) {
+  const std::vector<std::string> found = raster_names(file, of_plane);
+  if (found.empty() && usual.empty())
+    file.fail("no variable is a raster of {}; give a file with one", axes_words(of_plane));
   if (found.empty())
-    file.fail("no variable is a raster of {}; give a file with one", axes);
+    file.fail("no variable {}; give {}({})", usual, usual, of_plane ? "y, x" : "lat, lon");
   if (found.size() > 1)
-    file.fail("{} variables are rasters of {}: {}; name one, or give a file with one", found.size(),
-              axes, listed(found));
+    file.fail("{}{} variables are rasters of {}: {}; {}, or give a file with one",
+              usual.empty() ? "" : message("no variable {}; ", usual), found.size(),
+              axes_words(of_plane), listed(found),
+              usual.empty() ? "name one" : message("name one of them {}", usual));
   return found.front();
+}
+
+/// The variable that is meant if none is named: the usual one of a quantity, or the only raster.
+std::string default_variable(const NetcdfReader& file, RasterQuantity quantity, bool of_plane) {
+  const std::string usual = quantity == RasterQuantity::cell_width ? "cellWidth"
+                            : quantity == RasterQuantity::density  ? "density"
+                                                                   : "";
+  return !usual.empty() && file.has_variable(usual) ? usual : only_raster(file, of_plane, usual);
+}
+
+[[noreturn]] void refuse_variable(const NetcdfReader& file, const std::string& variable,
+                                  bool of_plane) {
+  const std::vector<std::string> known = raster_names(file, of_plane);
+  if (known.empty())
+    file.fail("no variable {}; give {}({})", variable, variable, of_plane ? "y, x" : "lat, lon");
+  file.fail("no variable {}; there are {}", variable, listed(known));
 }
 
 /// Reads a variable with any order of its dimensions; dimensions besides those of the axes have the
 /// size 1. Missing values are NaN.
 RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable, bool of_plane) {
   if (!file.has_variable(variable))
-    file.fail("no variable {}; give {}({})", variable, variable, of_plane ? "y, x" : "lat, lon");
+    refuse_variable(file, variable, of_plane);
   const RasterAxes axes = of_plane ? plane_axes(file) : require_axes(file, variable);
   RasterOfFile stored{.raster = {.of_plane = of_plane},
                       .x_name = axes.longitude,
@@ -266,11 +294,23 @@ ValueLaw make_law(RasterQuantity quantity, bool of_plane) {
   return nearly_a_fraction;
 }
 
+/// Refuses widths of the sphere that have no unit and look like metres.
+void require_known_unit(const DoubleMatrix& values, const NetcdfReader& file,
+                        const std::string& variable) {
+  constexpr double widest = 2000; // km; a coarser grid of the Earth has fewer than 150 cells
+  const double most = values.array().isNaN().select(0, values.array()).maxCoeff();
+  if (most > widest && file.text(variable, "units").empty())
+    file.fail("{} is up to {} and has no unit: metres or km? Give it the attribute units, \"m\" or "
+              "\"km\"",
+              variable, most);
+}
+
 /// Converts values to the unit of a quantity.
 void convert(DoubleMatrix& values, const NetcdfReader& file, const RasterOfFile& stored,
              RasterQuantity quantity) {
   const std::string& variable = stored.value_name;
   if (quantity == RasterQuantity::cell_width && !stored.raster.of_plane) {
+    require_known_unit(values, file, variable);
     if (const double factor = kilometres_per_unit(file, variable); factor != 1)
       values /= 1 / factor; // a division by 1000 restores widths that are exact in km
   } else if (quantity == RasterQuantity::cell_width) {
@@ -307,10 +347,8 @@ Raster read_raster(const std::string& path, const RasterChoice& choice) {
   const NetcdfReader file(path);
   const bool of_plane = !choice.surface.is_sphere();
   const RasterQuantity quantity = choice.quantity;
-  const std::string variable = !choice.variable.empty()                 ? choice.variable
-                               : quantity == RasterQuantity::cell_width ? "cellWidth"
-                               : quantity == RasterQuantity::density    ? "density"
-                                                                     : only_raster(file, of_plane);
+  const std::string variable =
+      !choice.variable.empty() ? choice.variable : default_variable(file, quantity, of_plane);
   RasterOfFile stored = stored_raster(file, variable, of_plane);
   convert(stored.raster.values, file, stored, quantity);
   const ValueLaw law = make_law(quantity, of_plane);
@@ -324,10 +362,16 @@ Raster read_raster(const std::string& path, const RasterChoice& choice) {
 
 Raster read_land(const std::string& path, const std::string& variable, RasterQuantity quantity) {
   Raster raster = read_raster(path, {.variable = variable, .quantity = quantity});
-  if (quantity == RasterQuantity::sea_fraction)
+  if (quantity == RasterQuantity::sea_fraction) {
     raster.values = 1 - raster.values.array();
-  else if (quantity != RasterQuantity::land_fraction)
+  } else if (quantity != RasterQuantity::land_fraction) {
+    if (!(raster.values.array() < 0).any())
+      io_detail::fail_file(
+          path, "no height is below 0, so that all is land; if the values are depths, give their "
+                "variable the attribute positive = \"down\"; if they are fractions of land or sea, "
+                "say so (--raster-values)");
     raster.values = raster.values.unaryExpr([](double height) { return height < 0 ? 0.0 : 1.0; });
+  }
   return raster;
 }
 

@@ -54,15 +54,19 @@ void require_format(const std::string& name) {
 
 } // namespace
 
-Surface read_region(std::istream& in, const std::string& name) {
-  require_format(name);
-  return is_geojson(name) ? read_geojson(in, name) : read_region_pts(in, name);
-}
+namespace io_detail {
 
-Surface read_region(const std::string& path) {
+Surface read_region_file(const std::string& path) {
   require_format(path);
   std::ifstream in = open_input(path);
   return read_region(in, path);
+}
+
+} // namespace io_detail
+
+Surface read_region(std::istream& in, const std::string& name) {
+  require_format(name);
+  return is_geojson(name) ? read_geojson(in, name) : read_region_pts(in, name);
 }
 
 } // namespace calotte

@@ -12,6 +12,9 @@
 
 namespace calotte::io_detail {
 
+/// Reads a region of the sphere from a file; see read_region().
+Surface read_region_file(const std::string& path);
+
 /// Reads a region of the sphere from a point file of MPAS-Limited-Area; see read_region().
 Surface read_region_pts(std::istream& in, const std::string& name);
 

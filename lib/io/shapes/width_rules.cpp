@@ -3,9 +3,8 @@
 #include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
-#include "io/bytes/text.h"
 #include "io/command.h"
-#include "io/shapes/room.h"
+#include "io/shapes/rule_table.h"
 #include "io/toml.h"
 
 #include <calotte/error.h>
@@ -14,10 +13,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,116 +26,15 @@ namespace {
 using base_detail::listed;
 using base_detail::message;
 using io_detail::fail_at;
+using io_detail::RuleTable;
 
-std::string beside(const std::string& path, const std::filesystem::path& name) {
-  return (std::filesystem::path(path).parent_path() / name).string();
+std::string folder_of(const std::string& path) {
+  return std::filesystem::path(path).parent_path().string();
 }
 
-/// One table of a file. Tracks which of its keys have been taken.
-class RuleTable {
-public:
-  RuleTable(const std::string& path, const toml::table& table) : path_(path), table_(table) {}
-
-  bool has(const std::string& key) const { return table_.contains(key); }
-
-  [[noreturn]] void refuse(const std::string& key, const std::string& problem) const {
-    const toml::node* const node = table_.get(key);
-    fail_at(path_, (node != nullptr ? node->source() : table_.source()).begin.line, "{} {}", key,
-            problem);
-  }
-
-  /// Whether the table has a key that was not taken before. Takes it.
-  bool takes(const std::string& key) { return taken_.insert(key).second && has(key); }
-
-  const toml::node* take(const std::string& key) {
-    taken_.insert(key);
-    return table_.get(key);
-  }
-
-  double number(const std::string& key) {
-    const toml::node* const node = take(key);
-    if (node == nullptr)
-      fail_at(path_, table_.source().begin.line, "the rule needs {}; give a number", key);
-    const std::optional<double> value = node->value<double>();
-    if (!value || !(*value > 0) || !std::isfinite(*value))
-      refuse(key, "is not a positive number; give one");
-    return *value;
-  }
-
-  std::string text(const std::string& key, const std::string& what) {
-    const toml::node* const node = take(key);
-    const std::optional<std::string> value = node ? node->value_exact<std::string>() : std::nullopt;
-    if (!value || value->empty())
-      refuse(key, message("is no text; give {} in quotes", what));
-    return *value;
-  }
-
-  /// Takes "smooth", whether a profile is smooth; false without it.
-  bool smooth() {
-    if (!has("smooth"))
-      return false;
-    const std::optional<bool> value = take("smooth")->value_exact<bool>();
-    if (!value)
-      refuse("smooth", "is neither true nor false; give one of them");
-    return *value;
-  }
-
-  /// Takes a profile: pairs of numbers, and "smooth".
-  WidthProfile pairs(const std::string& key) {
-    const toml::node* const node = take(key);
-    WidthProfile profile;
-    if (const toml::array* const list = node->as_array())
-      for (const toml::node& item : *list) {
-        const toml::array* const pair = item.as_array();
-        const auto at = [&](std::size_t k) {
-          return pair != nullptr && pair->size() == 2 ? (*pair)[k].value<double>() : std::nullopt;
-        };
-        if (!at(0) || !at(1))
-          refuse(key, message("holds no pair at place {}; give [[number, width], ...]",
-                              profile.nodes.size()));
-        profile.nodes.push_back({*at(0), *at(1)});
-      }
-    if (profile.nodes.empty())
-      refuse(key, "holds no pairs; give [[number, width], ...]");
-    profile.smooth = smooth();
-    return profile;
-  }
-
-  /// \throws Error parse, if the least width is above the largest one.
-  void require_least_below_most() const {
-    const auto number = [&](const char* key) {
-      const toml::node* const node = table_.get(key);
-      return node == nullptr ? std::nullopt : node->value<double>();
-    };
-    if (const auto least = number("least"), most = number("most"); least && most && *least > *most)
-      refuse("least", message("is {}, above most, {}; exchange them", *least, *most));
-  }
-
-  /// \throws Error parse, for a key that was not taken.
-  void require_all_taken() const {
-    for (const auto& [key, node] : table_)
-      if (!taken_.contains(std::string(key.str())))
-        fail_at(path_, key.source().begin.line,
-                "the rule does not take {}; it takes {}; see calotte help widths", key.str(),
-                listed(taken_));
-  }
-
-  /// Calls make(). Adds path and line to the messages of its errors.
-  template <class Make> auto made(const Make& make) const -> decltype(make()) {
-    try {
-      return make();
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::invalid_argument)
-        throw;
-      fail_at(path_, table_.source().begin.line, error.what());
-    }
-  }
-
-private:
-  const std::string& path_;
-  const toml::table& table_;
-  std::set<std::string> taken_;
-};
+std::string beside(const std::string& path, const std::string& name) {
+  return (std::filesystem::path(folder_of(path)) / name).string();
+}
 
 class RuleReader {
 public:
@@ -160,10 +56,11 @@ public:
 
   /// Whether the value of a key, of a rule or beside it, is the name of a file.
   static bool names_file(std::string_view key) {
-    return key == "share" || key == "within" ||
-           std::ranges::any_of(
-               sources(), [&](const Key& known) { return known.names_file && known.name == key; });
+    return std::ranges::any_of(
+        sources(), [&](const Key& known) { return known.names_file && known.name == key; });
   }
+  /// Whether it is a region.
+  static bool names_region(std::string_view key) { return key == "share" || key == "within"; }
 
 private:
   using Source = Widths (RuleReader::*)(RuleTable&);
@@ -272,7 +169,7 @@ private:
         return Widths::minimum({rule, most});
       });
     if (table.takes("within"))
-      each([share = share_in(file(table, "within"))](const Widths& rule) {
+      each([share = share_in(region(table, "within"))](const Widths& rule) {
         return Widths::where(share, rule, Widths::no_demand);
       });
     if (!in_domain && table.take("gradient") != nullptr)
@@ -282,8 +179,13 @@ private:
   }
 
   std::string file(RuleTable& table, const std::string& key) {
-    const std::filesystem::path name = table.text(key, "the name of a file");
-    return beside(path_, name);
+    return beside(path_, table.text(key, "the name of a file"));
+  }
+
+  /// The word of a region, or a raster of shares.
+  std::string region(RuleTable& table, const std::string& key) {
+    const std::string word = table.text(key, "a region");
+    return surface_.is_sphere() ? region_beside(folder_of(path_), word) : beside(path_, word);
   }
 
   std::vector<Widths> parts(RuleTable& table, const std::string& key) {
@@ -316,7 +218,7 @@ private:
 
   /// Reads a part of the sphere or of the plane.
   Surface part_in(const std::string& path) const {
-    return surface_.is_sphere() ? read_region(path) : read_domain(path);
+    return surface_.is_sphere() ? read_region(path, radius_km_) : read_domain(path);
   }
 
   /// Reads the share of such a part, or of a raster.
@@ -327,7 +229,7 @@ private:
   }
 
   WidthShare share(RuleTable& table) {
-    const std::string path = file(table, "share");
+    const std::string path = region(table, "share");
     if (table.has("variable"))
       return read_raster(path, {.variable = table.text("variable", "its name"),
                                 .quantity = RasterQuantity::land_fraction});
@@ -347,10 +249,21 @@ private:
     const std::string path = file(table, "by-distance");
     const WidthProfile profile = table.has("profile") ? table.pairs("profile") : growing(table);
     if (surface_.is_sphere() && table.has("side"))
-      return Widths::by_distance(read_coast(path), profile, side(table));
-    return surface_.is_sphere() && profile.nodes.front()[0] < 0
-               ? Widths::by_distance(read_coast(path), profile)
-               : Widths::by_distance(read_shapes(path, surface_), profile, surface_);
+      return Widths::by_distance(coast(table, path), profile, side(table));
+    if (surface_.is_sphere() && profile.nodes.front()[0] < 0)
+      return Widths::by_distance(coast(table, path), profile);
+    return Widths::by_distance(surface_.is_sphere() && table.has("least-area")
+                                   ? shores(coast(table, path))
+                                   : read_shapes(path, surface_),
+                               profile, surface_);
+  }
+
+  /// Reads a coast, without what is smaller than the area that the rule gives.
+  Coast coast(RuleTable& table, const std::string& path) const {
+    const Coast whole = read_coast(path);
+    return table.takes("least-area")
+               ? without_small(whole, table.number("least-area") / (radius_km_ * radius_km_))
+               : whole;
   }
 
   static WidthProfile growing(RuleTable& table) {
@@ -377,7 +290,7 @@ private:
     ChannelRule rule{.cells = table.number("cells"), .least = table.number("least")};
     if (table.take("widest") != nullptr)
       rule.widest = table.number("widest");
-    return Widths::by_channel(read_coast(path), rule);
+    return Widths::by_channel(coast(table, path), rule);
   }
 
   Widths depth(RuleTable& table) {
@@ -399,19 +312,16 @@ private:
 
   static double seconds(RuleTable& table) {
     const std::string text = table.text("period", "a time such as 12.42h");
-    double value = 0;
-    const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const std::string_view word(stop, text.data() + text.size());
     constexpr std::array<std::pair<std::string_view, double>, 4> units{
         {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
+    const Measure time = measure_of(text).value_or(Measure{});
     const auto* const unit =
-        std::ranges::find(units, word.substr(std::min(word.find_first_not_of(' '), word.size())),
-                          [](const auto& known) { return known.first; });
-    if (problem != std::errc() || unit == units.end() || !(value > 0) || !std::isfinite(value))
+        std::ranges::find(units, time.unit, [](const auto& known) { return known.first; });
+    if (unit == units.end() || !(time.value > 0) || !std::isfinite(time.value))
       table.refuse(
           "period",
           message("is \"{}\"; give a time with its unit, s, min, h or d, such as 12.42h", text));
-    return value * unit->second;
+    return time.value * unit->second;
   }
 
   /// A file of a rule, which must not be a file of rules: these could name each other without end.
@@ -424,7 +334,12 @@ private:
 
   Widths raster(RuleTable& table) {
     const std::string path = require_no_rules(table, "raster");
-    return read_cell_width(path, {}, surface_.is_sphere() ? Surface() : Surface::plane());
+    const Surface whole = surface_.is_sphere() ? Surface() : Surface::plane();
+    if (table.has("variable"))
+      return read_raster(path, {.variable = table.text("variable", "its name"),
+                                .quantity = RasterQuantity::cell_width,
+                                .surface = whole});
+    return read_cell_width(path, {}, whole);
   }
 
   Widths polygons(RuleTable& table) {
@@ -466,8 +381,13 @@ std::vector<std::string> files_of_rules(const std::string& path) {
         self(self, item);
     if (const toml::table* const table = node.as_table())
       for (const auto& [key, value] : *table) {
-        if (const auto* const text = value.as_string(); text && RuleReader::names_file(key.str()))
+        const auto* const text = value.as_string();
+        if (text != nullptr && RuleReader::names_file(key.str()))
           files.push_back(beside(path, text->get()));
+        else if (text != nullptr && RuleReader::names_region(key.str()))
+          if (std::string file = region_file(region_beside(folder_of(path), text->get()));
+              !file.empty())
+            files.push_back(std::move(file));
         self(self, value);
       }
   };

@@ -25,6 +25,7 @@ public:
   Parser() {
     app_.add_option("POINTS,--points", points)->type_name("FILE");
     app_.add_option("--cell-width", cell_width)->type_name("KM|FILE");
+    app_.add_option("--region", region)->type_name("SHAPE|FILE");
     app_.add_option("--density", densities)->allow_extra_args(false);
     app_.add_option("--start", start)->check(CLI::IsMember({"random", "spiral"}));
     app_.add_option("--sort", sort);
@@ -53,7 +54,7 @@ public:
 
   std::string in_folder(const std::string& file) const { return folder_ / file; }
 
-  std::string points, cell_width, start, sort, cells;
+  std::string points, cell_width, region, start, sort, cells;
   std::vector<std::string> densities;
   double tolerance = 0, half_life = 0;
   int limit = 0, iterations = 0;
@@ -191,6 +192,16 @@ TEST_CASE("file names are relative to the folder of the file of options") {
   Parser standard;
   standard.parse("points = \"-\"\n");
   CHECK(standard.points == "-");
+  for (const std::string shape : {"circle=1,2,3km", "box=1,2,3,4", "no=shape"}) {
+    Parser by_words;
+    by_words.parse("region = \"" + shape + "\"\n");
+    CHECK(by_words.region == shape);
+  }
+  Parser area, land;
+  area.parse("region = \"area.geojson\"\n");
+  CHECK(area.region == area.in_folder("area.geojson"));
+  land.parse("region = \"land=coast.nc,1,2\"\n");
+  CHECK(land.region == "land=" + land.in_folder("coast.nc") + ",1,2");
   Parser overridden;
   overridden.parse("points = \"points.txt\"\n", "there.txt");
   CHECK(overridden.points == "there.txt");

@@ -283,6 +283,9 @@ TEST_CASE("--region: shapes") {
   CHECK(region_of("circle=-90,0,100km", "", 1000) == circle(west, 0.1));
   CHECK(region_of("ellipse=-90deg,0,1274.2km,637.1km,90", "") ==
         ellipse(west, 0.2, 0.1, std::numbers::pi / 2));
+  CHECK(region_of("box=-20,30,40,60deg", "") == box(-std::numbers::pi / 9, std::numbers::pi / 6,
+                                                    std::numbers::pi * 2 / 9,
+                                                    std::numbers::pi / 3));
   CHECK(region_of("channel=-90,45", "") == channel(-std::numbers::pi / 2, std::numbers::pi / 4));
 }
 
@@ -291,12 +294,26 @@ TEST_CASE("--region: words that are refused") {
            {"circle=1,2", "--region circle=1,2: the number of values is 2 instead of 3; give "
                           "circle=LON,LAT,RADIUS"},
            {"circle=1,2,3,4", "is 4 instead of 3"},
-           {"circle=1,100,3km", "\"100\" is no angle from -90 to 90 degrees"},
+           {"circle=1,100,3km", "\"100\" is no latitude from -90 to 90 degrees"},
            {"circle=1,2,200deg", "the circle's radius is 3.49066; give 1e-6 to pi - 1e-6 radians"},
            {"ellipse=1,2,3km,4km,0", "give the major one first"},
            {"channel=20,10", "give the lower one first"},
            {"channel=20",
             "the number of values is 1 instead of 2; give channel=LOWER,UPPER, as in"},
+           {"box=1,2,3", "--region box=1,2,3: the number of values is 3 instead of 4; give "
+                         "box=WEST,SOUTH,EAST,NORTH, as in box=-20,30,40,60"},
+           {"box=20,120,-40,10", "\"120\" is no latitude from -90 to 90 degrees; give box=WEST,"},
+           {"box=0,40,20,20",
+            "the box's latitudes are 40 and 20 degrees; give the lower one first"},
+           {"box=-180,-90,180,90", "is the whole sphere; give no region"},
+           {"circle(1,2,3km)", "--region circle(1,2,3km): this is no shape; write "
+                               "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},
+           {"bbox=1,2,3,4", "--region bbox=1,2,3,4: there is no such shape, and no such file; give "
+                            "circle=LON,LAT,RADIUS, ellipse=LON,LAT,MAJOR,MINOR,BEARING, "
+                            "box=WEST,SOUTH,EAST,NORTH, channel=LOWER,UPPER, land=FILE,LON,LAT, or "
+                            "the file of a region (.geojson, .json or .pts)"},
+           {"0,0,20,20", "there is no such shape, and no such file; give circle="},
+           {"europe", "there is no such shape, and no such file; give circle="},
            {"R.txt", "R.txt: the name determines no format of regions"},
            {"absent.geojson", "absent.geojson"}})
     CHECK(test::has(refused_region(word), part));

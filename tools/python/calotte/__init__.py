@@ -19,7 +19,7 @@ from . import _display, _mesh, widths  # add the methods that are written in Pyt
 from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Unit, Voronoi, Widths, __version__)
 from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Plan, Weights, bisect,
-                         bisected_icosahedron, channel, check, circle, coarsen, cubed_sphere,
+                         bisected_icosahedron, box, channel, check, circle, coarsen, cubed_sphere,
                          cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
                          from_lonlat, geodesic_sphere, hexagonal_lattice, interpolate,
                          interpolation_weights, lat_lon_sphere, limited_area, locate,
@@ -31,7 +31,8 @@ from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Plan, Weights, 
 __all__ = [
     "Action", "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "Cvt", "Density", "Error",
     "Locations", "Mesh", "OperatorErrors", "Plan", "Polygons", "Quality", "Raster", "Surface",
-    "Unit", "Voronoi", "Weights", "Widths", "__version__", "bisect", "bisected_icosahedron", "channel",
+    "Unit", "Voronoi", "Weights", "Widths", "__version__", "bisect", "bisected_icosahedron", "box",
+    "channel",
     "check", "circle", "coarsen", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "density",
     "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere", "hexagonal_lattice",
     "interpolate", "interpolation_weights", "lat_lon_sphere", "limited_area", "locate",

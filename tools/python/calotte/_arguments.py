@@ -307,56 +307,8 @@ def density(value, widths=None, plane=False):
 
 # ---- Surfaces
 
-_SHAPES = {"circle": ("LON,LAT,RADIUS", "-105,40,1000km"),
-           "ellipse": ("LON,LAT,MAJOR,MINOR,BEARING", "138,38,1580km,1000km,45"),
-           "channel": ("LOWER,UPPER", "-23.5,23.5"),
-           "land": ("FILE,LON,LAT", "binned_GSHHS_l.nc,134,-25")}
-
-
-def _degrees(text):
-    value = measure(text)
-    if value is None or value[1] not in ("", "deg"):
-        raise Error(f"{text!r} is no number of degrees")
-    return value[0]
-
-
-def _shape(text, earth_radius):
-    """A surface of a word such as circle=-105,40,1000km, as the command has it; None for others."""
-    shape, equals, rest = text.partition("=")
-    if not equals or (shape not in _SHAPES and (not shape.isalpha() or os.path.exists(text))):
-        return None
-    if shape not in _SHAPES:
-        raise Error(f"surface {text}: there is no such shape, and no such file; give "
-                    f"{', '.join(f'{known}=' for known in _SHAPES)} or the file of a region")
-    form, example = _SHAPES[shape]
-    parts = rest.split(",")
-    if shape == "land" and len(parts) > 3:
-        parts = [",".join(parts[:-2]), *parts[-2:]]
-    try:
-        if len(parts) != form.count(",") + 1:
-            raise Error(f"it has {len(parts)} values")
-        if shape == "channel":
-            return _calotte.channel(*(math.radians(_degrees(part)) for part in parts), 360)
-        if shape == "land":
-            point = direction([_degrees(part) for part in parts[1:]], "the point")
-            return _calotte.land_around(parts[0], point)
-        centre = direction([_degrees(part) for part in parts[:2]], "the centre")
-        if shape == "circle":
-            return _calotte.circle(centre, _length(parts[2], earth_radius), 360)
-        return _calotte.ellipse(centre, *(_length(part, earth_radius) for part in parts[2:4]),
-                                math.radians(_degrees(parts[4])), 360)
-    except Error as error:
-        raise Error(f"surface {text}: {error}; give {shape}={form}, as in {shape}={example}") from None
-
-
-def _length(text, earth_radius):
-    if measure(text) is None or not measure(text)[1]:
-        raise Error(f"{text!r} is no length such as 1000km or 30deg")
-    return angle(text, "a length", earth_radius)
-
-
-_SURFACES = {False: "of the sphere: Surface(), circle(), ellipse(), channel(), polygon(), text such as "
-                    "'circle=-105,40,1000km' or a file",
+_SURFACES = {False: "of the sphere: Surface(), circle(), ellipse(), box(), channel(), polygon(), text such as "
+                    "'circle=-105,40,1000km' or 'box=-20,30,40,60', or a file",
              True: "of a plane: rectangle(), periodic_box() or planar_polygon()"}
 
 
@@ -365,17 +317,22 @@ def surface(value, plane=None, earth_radius=EARTH_RADIUS_KM) -> _calotte.Surface
     if value is None:
         value = _calotte.Surface()
     elif isinstance(value, str) or hasattr(value, "__fspath__"):
-        value = _shape(str(value), earth_radius) or _file(str(value), plane)
+        value = _named(str(value), plane, earth_radius)
     if isinstance(value, _calotte.Surface) and plane in (None, not value.is_sphere):
         return value
     kinds = [text for kind, text in _SURFACES.items() if plane in (None, kind)]
     raise Error(f"surface is {value!r}; give one {', or '.join(kinds)}")
 
 
-def _file(path, plane):
+def _named(text, plane, earth_radius):
+    """The surface of a file, or of the sphere of a shape such as circle=-105,40,1000km, as the command has it."""
+    is_file = os.path.exists(text)
+    shape = "=" in text and not is_file
     try:
-        return _calotte.read_domain(path) if plane else _calotte.read_region(path)
+        return _calotte.read_domain(text) if plane and not shape else _calotte.read_region(text, earth_radius)
     except Error as error:
-        if plane is None and error.code != "file":
-            error.args = (f"{error}; or give a file of a plane as planar_polygon({path!r})",)
+        if shape:
+            error.args = (f"surface {error}",)
+        elif plane is None and is_file and error.code != "file":
+            error.args = (f"{error}; or give a file of a plane as planar_polygon({text!r})",)
         raise

@@ -661,8 +661,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         In a plane, in the unit of its coordinates: a number; (values, x, y); a file; a rule of
         it; or a function of arrays of x and y.
     surface: where the cells are. Default: the sphere. A part of it is one of circle(), ellipse(),
-        channel() or polygon(); text as of `calotte cvt --region`, such as "circle=-105,40,1000km";
-        or a file of a region. A plane is one of rectangle(), periodic_box() or planar_polygon().
+        box(), channel() or polygon(); text as of `calotte cvt --region`, such as
+        "circle=-105,40,1000km" or "box=-20,30,40,60"; or a file of a region. A plane is one of rectangle(), periodic_box() or planar_polygon().
     fixed: generators that stay, as those of the start; the first cells of the result. A number of
         cells includes them, points of the start do not; without a number, free ones are added where
         the fixed ones leave the widths unmet.
@@ -1090,6 +1090,18 @@ def channel(lower: float, upper: float, corners: int = 360) -> Surface:
     return _calotte.channel(math.radians(lower), math.radians(upper), corners)
 
 
+def box(west: float, south: float, east: float, north: float) -> Surface:
+    """The region between two meridians and two parallels, in degrees.
+
+    It runs eastward from west to east, over the date line if east is less. -180 and 180 give a band.
+    A box up to a pole (south -90 or north 90) is a sector of its cap.
+
+    >>> round(box(0, 0, 90, 90).area / (4 * math.pi), 12), round(box(170, -10, -170, 10).area, 3)
+    (0.125, 0.121)
+    """
+    return _calotte.box(*(math.radians(side) for side in (west, south, east, north)))
+
+
 def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Surface:
     """The region that rings enclose, each k x 2 longitudes and latitudes in degrees or k x 3.
 
@@ -1287,11 +1299,15 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
          field_file: Path | None = None, sea_below: float | None = None,
          sea_from: float | None = None, passages: Path | Sequence[Path] | None = None,
          barriers: Path | Sequence[Path] | None = None, fill: bool = True, seeds: ArrayLike = (),
-         mask: Path | None = None, cell_map: Path | None = None,
+         least_area: float = 0, mask: Path | None = None, cell_map: Path | None = None,
          sphere_radius: float | None = None, model: str | None = None) -> dict[str, Any]:
     """Removes the land cells from an MPAS file; all fields go along. Returns a dict of counts.
 
+    The dict's severed_parts are the largest parts of the sea that are left out: the cells, longitude
+    and latitude of the middle of each.
+
     land: GeoJSON of land, or a binned file of GSHHG; one or several. coast: an older name of it.
+    least_area: of the islands and lakes of the land that count, km2 on the Earth.
     raster: a NetCDF raster of latitudes and longitudes, whose raster_values are "height" (below 0 is
         sea), "sea-fraction" or "land-fraction"; raster_variable: its variable, of a file with several.
     land_fraction: cells with a larger fraction of land are land.
@@ -1311,7 +1327,7 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
              "barriers": _files(barriers), "raster": "" if raster is None else str(raster),
              "raster_variable": raster_variable, "raster_values": raster_values, "field": field,
              "field_file": "" if field_file is None else str(field_file), "sea_from": sea_from,
-             "sea_below": sea_below, "land_fraction": land_fraction}
+             "sea_below": sea_below, "land_fraction": land_fraction, "least_area": least_area}
     return _calotte.cull(str(source), str(target), words, fill,
                          _arguments.sphere_points(points, "seeds"),
                          "" if mask is None else str(mask),

@@ -52,7 +52,7 @@ def by_latitude(nodes, *, smooth=False):
 
 
 def by_distance(lines, near=None, far=None, over=None, *, profile=None, smooth=False, side=None,
-                surface=None):
+                least_area=0, surface=None):
     """Widths by the distance from the nearest of some lines.
 
     lines: a file of lines, polygons or a coast, GeoJSON or GSHHG's .nc, or of points, .txt; one line
@@ -61,6 +61,7 @@ def by_distance(lines, near=None, far=None, over=None, *, profile=None, smooth=F
     profile: pairs of a distance and a width; with a file of polygons or a coast, negative distances
         are on land. smooth: as for by_latitude().
     side: "sea" or "land" of such a file, for a rule that says nothing on the other side.
+    least_area: of the islands and lakes of such a file that count, km2 on the Earth.
     surface: a plane, whose lines are n x 2, or a file of x and y, .geojson or .txt; distances are
         straight. Default: the sphere.
     """
@@ -71,10 +72,12 @@ def by_distance(lines, near=None, far=None, over=None, *, profile=None, smooth=F
         raise _calotte.Error("give near, far and over, or a profile, but not both")
     nodes = _nodes([(0, near), (over, far)] if profile is None else profile, "distances and widths")
     is_file = _is_file(lines)
-    if side or nodes.min(axis=0, initial=0)[0] < 0:
+    signed = nodes.min(axis=0, initial=0)[0] < 0
+    if side or signed or least_area:
         if not (is_file and surface.is_sphere):
-            raise _calotte.Error("lines have no side of sea or land; give a file of polygons or a coast")
-        return _calotte.widths_by_distance_from_coast(str(lines), nodes, smooth, side or "both")
+            raise _calotte.Error("lines have no side of sea or land, and no area; give a file of polygons or a coast")
+        return _calotte.widths_by_distance_from_coast(str(lines), nodes, smooth, side or ("both" if signed else ""),
+                                                      least_area)
     if is_file:
         return _calotte.widths_by_distance_from_file(str(lines), nodes, smooth, surface)
     return _calotte.widths_by_distance(_lines(lines, surface), nodes, smooth, surface)
@@ -106,13 +109,13 @@ def by_depth(path, least, *, cells=None, period=None, rossby=None, slope=None, v
     return _calotte.widths_by_depth(str(path), variable, kind, value, period or 0.0, least)
 
 
-def by_channel(coast, least, *, cells, widest=500):
+def by_channel(coast, least, *, cells, widest=500, least_area=0):
     """Widths of which so many cells lie across each channel and strait; elsewhere the rule says nothing.
 
     coast: a file of polygons, GeoJSON or GSHHG's .nc. least: the width in channels narrower than so many.
-    widest: of the channels that count, km.
+    widest: of the channels that count, km. least_area: of the islands and lakes that count, km2 on the Earth.
     """
-    return _calotte.widths_by_channel(str(coast), cells, least, widest)
+    return _calotte.widths_by_channel(str(coast), cells, least, widest, least_area)
 
 
 def minimum(*widths):

@@ -8,6 +8,7 @@
 
 #include <calotte/cut.h>
 #include <calotte/error.h>
+#include <calotte/generators.h>
 #include <calotte/mesh_file.h>
 #include <calotte/partition.h>
 #include <calotte/read.h>
@@ -392,6 +393,7 @@ struct Land {
   std::string field, field_file;
   std::optional<double> sea_from, sea_below;
   double land_fraction = 0.5;
+  double least_area = 0; ///< km^2 of the Earth
 };
 
 Land land_of(const py::dict& words) {
@@ -405,7 +407,8 @@ Land land_of(const py::dict& words) {
           .field_file = words["field_file"].cast<std::string>(),
           .sea_from = words["sea_from"].cast<std::optional<double>>(),
           .sea_below = words["sea_below"].cast<std::optional<double>>(),
-          .land_fraction = words["land_fraction"].cast<double>()};
+          .land_fraction = words["land_fraction"].cast<double>(),
+          .least_area = words["least_area"].cast<double>()};
 }
 
 void set_land(const Land& land, CullOptions& options) {
@@ -414,6 +417,8 @@ void set_land(const Land& land, CullOptions& options) {
     options.coast.area += coast.area;
     options.coast.rings.insert(options.coast.rings.end(), coast.rings.begin(), coast.rings.end());
   }
+  options.coast =
+      without_small(options.coast, land.least_area / (earth_radius_km * earth_radius_km));
   const auto add_lines = [](const std::vector<std::string>& files, std::vector<Points3>& lines) {
     for (const std::string& file : files)
       for (Points3& line : read_lines(file))
@@ -454,6 +459,12 @@ py::dict cull_mesh(const std::string& source, const std::string& target, const p
   values["land"] = report.land;
   values["filled"] = report.sea.filled;
   values["severed"] = report.sea.severed;
+  py::list parts;
+  for (std::size_t k = 0; k < report.sea.severed_parts.size(); ++k) {
+    const Points2 at = to_lonlat(report.severed.col(static_cast<Eigen::Index>(k)));
+    parts.append(py::make_tuple(report.sea.severed_parts[k].cells, at(0, 0), at(1, 0)));
+  }
+  values["severed_parts"] = parts;
   return values;
 }
 

@@ -3,7 +3,6 @@
 #include "calls.h"
 #include "module.h"
 
-#include <calotte/ocean.h>
 #include <calotte/read.h>
 #include <calotte/surface.h>
 
@@ -81,7 +80,7 @@ Surface surface_of_state(const py::tuple& state) {
 void add_surfaces(py::module_& module) {
   py::class_<Surface>(module, "Surface",
                       "Where points live: the sphere, a plane, or a part of them, of circle(),\n"
-                      "ellipse(), channel(), polygon(), rectangle(), periodic_box(),\n"
+                      "ellipse(), box(), channel(), polygon(), rectangle(), periodic_box(),\n"
                       "planar_polygon() or a file. Surface() is the sphere.")
       .def(py::init<>())
       .def_property_readonly(
@@ -109,12 +108,12 @@ void add_surfaces(py::module_& module) {
   module.def("polygon", &polygon);
   module.def("circle", &circle);
   module.def("ellipse", &ellipse);
+  module.def("box", &box);
   module.def("channel", &channel);
-  module.def("read_region", [](const std::string& path) { return read_region(path); });
-  module.def("read_domain", &read_domain);
-  module.def("land_around", [](const std::string& path, const Eigen::Vector3d& place) {
-    return call([&] { return land_around(read_coast(path), place); });
+  module.def("read_region", [](const std::string& word, double radius_km) {
+    return call([&] { return read_region(word, radius_km); });
   });
+  module.def("read_domain", &read_domain);
 }
 
 } // namespace calotte::python

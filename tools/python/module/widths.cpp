@@ -41,11 +41,19 @@ Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool
   });
 }
 
-/// \param side both, sea or land.
+/// \param least_area of the islands and lakes that count, km^2 on the Earth.
+Coast coast_in(const std::string& path, double least_area) {
+  return without_small(read_coast(path), least_area / (earth_radius_km * earth_radius_km));
+}
+
+/// \param side both, sea or land; "" for distances without a sign.
 Widths by_distance_from_coast(const std::string& path, const Doubles& nodes, bool smooth,
-                              const std::string& side) {
+                              const std::string& side, double least_area) {
   return call([&, of = profile(nodes, smooth)] {
-    return Widths::by_distance(read_coast(path), of,
+    const Coast coast = coast_in(path, least_area);
+    if (side.empty())
+      return Widths::by_distance(shores(coast), of);
+    return Widths::by_distance(coast, of,
                                side == "sea"    ? CoastSide::sea
                                : side == "land" ? CoastSide::land
                                                 : CoastSide::both);
@@ -76,9 +84,11 @@ Widths by_depth(const std::string& path, const std::string& variable, const std:
   });
 }
 
-Widths by_channel(const std::string& path, double cells, double least, double widest) {
+Widths by_channel(const std::string& path, double cells, double least, double widest,
+                  double least_area) {
   return call([&] {
-    return Widths::by_channel(read_coast(path), {.cells = cells, .least = least, .widest = widest});
+    return Widths::by_channel(coast_in(path, least_area),
+                              {.cells = cells, .least = least, .widest = widest});
   });
 }
 
