@@ -74,12 +74,11 @@ void run(CLI::App& app, int argc, char** argv) {
   add_partition(app);
   add_jigsaw(app);
   add_marche(app);
+  add_version(app);
   add_help(app);
   app.parse(argc, argv);
-  if (app.get_subcommands().empty())
-    throw CLI::RequiredError(
-        "delaunay, cvt, plan, points, check, info, draw, view, convert, cut, "
-        "cull, refine, coarsen, interpolate, partition, jigsaw, marche or help");
+  if (app.get_subcommands().empty()) // as calotte help
+    std::cout << app.help();
 }
 
 /// A message of the library, with the option that is its remedy here.
@@ -88,10 +87,17 @@ std::string with_option(const std::string& text) {
       {"read them as longitude and latitude, or as places in a plane", " (--lonlat, --plane)"},
       {"read it as one of the plane", " (--plane)"},
       {"read it as one of the sphere", " (without --plane)"},
-      {"give the points they refer to", " (--points FILE)"}};
+      {"give the points they refer to", " (--points FILE)"},
+      {"as an option or as the file's \"outsideWidth\"", " (--outside-width)"},
+      {"as an option or as the file's \"insideWidth\"", " (--inside-width)"},
+      {"as an option or as the file's \"transition\"", " (--transition)"},
+      {"name one, or give a file with one", " (--raster-variable, or variable of a rule)"}};
   for (const auto& [remedy, option] : options)
     if (text.ends_with(remedy))
       return text + option;
+  for (const char* unit : {"km", "m", "deg"}) // a number and a unit that a blank separates
+    if (text.starts_with(message("cannot read {}: ", unit)))
+      return message("{}; a number and its unit are one word, such as 60{}", text, unit);
   return text;
 }
 
@@ -211,9 +217,10 @@ int main(int argc, char** argv) try {
   let_gmp_throw();
   terminate_otherwise = std::set_terminate(calotte::tools::terminate);
   std::ios::sync_with_stdio(false);
-  CLI::App app("Computes exact Delaunay triangulations and centroidal Voronoi tessellations (CVTs) "
-               "in parallel.",
-               "calotte");
+  CLI::App app(
+      "Makes grids of the sphere and the plane: centroidal Voronoi tessellations (CVTs) and "
+      "exact Delaunay triangulations.",
+      "calotte");
   const ExitCode code = guarded_run(app, argc, argv);
   if (code == done && !std::cout.flush()) {
     complain("cannot write standard output; free disk space or redirect it");

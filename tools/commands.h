@@ -26,6 +26,7 @@ void add_interpolate(CLI::App& app);
 void add_partition(CLI::App& app);
 void add_jigsaw(CLI::App& app);
 void add_marche(CLI::App& app);
+void add_version(CLI::App& app);
 void add_help(CLI::App& app); ///< last: it shows the help of the others
 
 } // namespace calotte::tools

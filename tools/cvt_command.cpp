@@ -364,14 +364,18 @@ void add_cvt(CLI::App& app) {
              "mesh has the same bits for any number of threads and regions. A resumed "
              "run gives the same bits as an uninterrupted one.");
   const std::shared_ptr<CvtRequest> request = add_cvt_options(*command);
-  set_help(*command, {.common = {"START", "--cells", "--density", "--cell-width", "--tolerance",
-                                 "--max-iterations", "--output", "--for", "--sphere-radius",
-                                 "--report", "--checkpoint", "--resume", "--config", "--threads"},
-                      .examples = {"calotte cvt --cell-width 60km -o earth.nc",
-                                   "calotte cvt --cells 40962 -o uniform.nc --for mpas-ocean",
-                                   "calotte cvt --cells 40962 -o x8.vtp --density "
-                                   "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8",
-                                   "calotte cvt --hexagons 16,50,10000 --walls y -o channel.nc"}});
+  set_help(*command,
+           {.common = {"START", "--cells", "--region", "--limited-area", "--density",
+                       "--cell-width", "--outside-width", "--transition", "--gradient",
+                       "--tolerance", "--max-iterations", "--output", "--for", "--sphere-radius",
+                       "--report", "--checkpoint", "--resume", "--config", "--threads"},
+            .examples = {"calotte cvt --cell-width 60km -o earth.nc",
+                         "calotte cvt --region box=-20,30,40,60 --cell-width 60km "
+                         "--limited-area -o europe.nc",
+                         "calotte cvt --cells 40962 -o uniform.nc --for mpas-ocean",
+                         "calotte cvt --cells 40962 -o x8.vtp --density "
+                         "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8",
+                         "calotte cvt --hexagons 16,50,10000 --walls y -o channel.nc"}});
   command->callback([request, command] {
     request->options = given_options(*command);
     run(*request);

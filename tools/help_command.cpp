@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
+#include "help/guides.h"
 #include "help/help.h"
 #include "help/nearest_name.h"
 #include "help/topics.h"
@@ -22,6 +23,10 @@ constexpr const char* command_line = "calotte"; ///< before the name of a comman
   std::vector<std::string> names = command_names(app);
   for (const Topic& topic : topics())
     names.push_back(topic.name);
+  for (const Guide& guide : guides())
+    for (const std::string& word : split(guide.words, ' '))
+      if (constexpr std::size_t shortest = 5; word.size() >= shortest) // others are near any word
+        names.push_back(word);
   refuse(message("no help on \"{}\"; {}", name, remedy_for(name, names, "", "calotte --help")));
 }
 
@@ -37,19 +42,31 @@ std::string help_on(const CLI::App& app, const std::string& name) {
     if (command->get_name() == name)
       return command->get_formatter()->make_help(command, message("{} {}", command_line, name),
                                                  mode);
+  if (std::string text = guide_on(name); !text.empty())
+    return text;
+  if (std::string text = mentions_of(app, name); !text.empty())
+    return text;
   refuse_topic(app, name);
 }
 
 } // namespace
 
 void add_help(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("help", "Shows the help of a command or on a topic.");
-  auto name = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("help", "Shows the help of a command, or what there is on a subject.");
+  auto words = std::make_shared<std::vector<std::string>>();
   command->add_option(
-      "NAME", *name,
-      "A command, formats, density, region, measures or exit-codes; default: all commands");
-  set_help(*command, {{}, {"calotte help cvt", "calotte help density"}});
-  command->callback([&app, name] { std::cout << help_on(app, *name); });
+      "WORD", *words,
+      "A command, a topic such as density, or what you have in mind, such as ocean; "
+      "default: all commands");
+  set_help(*command, {{}, {"calotte help cvt", "calotte help ocean", "calotte help limited area"}});
+  command->callback([&app, words] { std::cout << help_on(app, listed(*words, "-", "-")); });
+}
+
+void add_version(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("version", "Shows the version, as --version does.");
+  set_help(*command, {{}, {"calotte version", "calotte --version"}});
+  command->callback([&app] { std::cout << app.version() << "\n"; });
 }
 
 } // namespace calotte::tools

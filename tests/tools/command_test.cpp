@@ -82,7 +82,6 @@ TEST_CASE("bad usage is refused before any work") {
 delaunay never -o mesh | 2 | mesh: no suffix; a mesh file ends in .nc,
 delaunay never | 2 | --output is required
 delaunay -o mesh.vtp | 2 | --points is required
-| 2 | delaunay, cvt, plan, points, check, info, draw, view, convert, cut, cull,
 triangulate | 2 | unknown command triangulate; see calotte --help
 check mesh.tri | 2 | mesh.tri holds triangles only; give the points they refer to (--points FILE)
 points random 9 -o points.vtp | 2 | points.vtp: points are text with x y z on each line

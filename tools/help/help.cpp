@@ -1,53 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/help.h"
 
+#include "help/guides.h"
 #include "help/option_text.h"
 #include "help/topics.h"
+#include "help/wrapped.h"
 #include "text/text.h"
 
 #include <CLI/App.hpp>
 
 #include <algorithm>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 namespace calotte::tools {
 namespace {
 
-constexpr std::size_t columns = 100;
 constexpr std::size_t text_column = 28; ///< where the texts of options begin
-
-// ---- Lines
-
-/// Breaks a text into lines of at most 100 columns.
-/// \param head the start of the first line; the text begins at `indent`, on the next line if the
-///        head is too long.
-std::string wrapped(const std::string& head, std::size_t indent, const std::string& text) {
-  const std::string margin(indent, ' ');
-  std::string lines = head, line = head;
-  if (head.size() + 2 > indent && indent > 0) {
-    lines += "\n" + margin;
-    line = margin;
-  } else {
-    lines.resize(indent, ' ');
-    line.resize(indent, ' ');
-  }
-  std::istringstream words(text);
-  bool first = true;
-  for (std::string word; words >> word; first = false) {
-    if (!first && line.size() + 1 + word.size() > columns) {
-      lines += "\n" + margin;
-      line = margin;
-    } else if (!first) {
-      lines += " ";
-      line += " ";
-    }
-    lines += word;
-    line += word;
-  }
-  return lines + "\n";
-}
 
 // ---- One option
 
@@ -122,20 +91,39 @@ public:
   std::string make_help(const CLI::App* app, std::string name,
                         CLI::AppFormatMode /*mode*/) const override {
     std::string text = "Usage: " + name + " COMMAND [OPTIONS]\n" +
-                       wrapped("", 0, app->get_description()) + "\nCommands:\n";
+                       wrapped("", 0, app->get_description()) + examples + "\nCommands:\n";
     for (const CLI::App* command : app->get_subcommands({}))
       text +=
           wrapped("  " + command->get_name(), indent, first_sentence(command->get_description()));
-    text += "\nTopics of calotte help:\n";
-    for (const Topic& topic : topics())
-      text += wrapped("  " + topic.name, indent, topic.summary);
-    return text +
-           "\ncalotte COMMAND --help shows the common options of a command, --help-all all; "
-           "--version the version.\n\n" +
-           exit_codes();
+    text += "\nHelp:\n";
+    text += wrapped("", indent_of_help,
+                    "calotte COMMAND --help shows the common options of a command, "
+                    "--help-all all.");
+    text +=
+        wrapped("", indent_of_help, "calotte help WORD explains " + listed(words(), " or ") + ".");
+    return text + "  The manual is in " + manual_folder() + "\n";
   }
 
 private:
+  static constexpr const char* examples = R"(
+Examples:
+  calotte cvt --cell-width 120km --for mpas-ocean -o earth.nc
+  calotte cvt --region box=-20,30,40,60 --cell-width 60km --limited-area -o europe.nc
+  calotte cull earth.nc --land coast.geojson -o ocean.nc
+  calotte view ocean.nc --open
+)";
+
+  /// The words that help explains: topics, and the names of guides.
+  static std::vector<std::string> words() {
+    std::vector<std::string> names;
+    for (const Topic& topic : topics())
+      names.push_back(topic.name);
+    for (const Guide& guide : guides())
+      names.push_back(guide.words.substr(0, guide.words.find(' ')));
+    return names;
+  }
+
+  static constexpr std::size_t indent_of_help = 2;
   static constexpr std::size_t indent = 15; ///< of the texts behind the longest name, interpolate
 };
 

@@ -65,20 +65,22 @@ A rule has one of these keys, which says what it is, and the keys after it:
                           far, the widths at 0 and from the distance `over` on; or
                           profile = [[KM, WIDTH], ...]; smooth. Of polygons or a coast also
                           side = "sea" or "land": on the other side the rule says nothing. In a
-                          profile with negative distances, these are on land
+                          profile with negative distances, these are on land. Islands and lakes
+                          smaller than least-area, in km^2, do not count
   around = FILE           `width` up to the distance `over`; beyond it the rule says nothing
   by-channel = FILE       at least `cells` cells across the channels and straits of a coast, up to
                           `widest`, default 500 km, but no cell below `least`; elsewhere the rule
-                          says nothing
+                          says nothing; least-area as for by-distance
   by-depth = FILE         by the depth of the sea, from NetCDF heights(lat, lon) in metres, of
                           `variable`, if it has several: period = "12.42h" and cells, the number
                           of cells in the length of a wave; or rossby = CELLS in a Rossby radius; or
                           slope = CELLS in 2 pi depth / slope; and `least`, the width at the shore
-  raster = FILE           widths of a NetCDF raster, or of JIGSAW's .msh
+  raster = FILE           widths of a NetCDF raster, of `variable`, if it has several and none is
+                          cellWidth; or of JIGSAW's .msh
   polygons = FILE         of GeoJSON: inside, outside, transition, as the options of that name
   minimum = [RULES]       the least of several; a number is a rule, too; maximum, sum likewise
-  blend = [A, B]          (1 - t) A + t B, with the share t of B from 0 to 1 in share = FILE: NetCDF
-                          t(lat, lon), of `variable`, if it has several; or a region, in which t is
+  blend = [A, B]          (1 - t) A + t B, with the share t of B from 0 to 1 in share: a file of NetCDF
+                          t(lat, lon), of `variable`, if it has several; or a REGION, in which t is
                           1. Outside, t falls to 0 at the distance `over`; or profile = [[KM, T],
                           ...] from its boundary, negative inside; smooth
 
@@ -86,7 +88,7 @@ Any rule takes also, in this order:
 
   times = FACTOR          of the widths
   least = KM, most = KM   limits of the widths
-  within = FILE           a region, see calotte help region, or NetCDF t(lat, lon) from 0 to 1;
+  within = REGION         see calotte help region, or a file of NetCDF t(lat, lon) from 0 to 1;
                           outside it, or where t is below 1/2, the rule says nothing
   gradient = G            the largest widths that are nowhere above the rule's and change by at most
                           G km per km, such as 0.03: grids of steep widths have bad cells
@@ -110,13 +112,17 @@ constexpr const char* region =
   circle=LON,LAT,RADIUS                 a circle around a centre: circle=-105,40,1000km
   ellipse=LON,LAT,MAJOR,MINOR,BEARING   semi-axes; the bearing of the major axis in degrees
                                         clockwise from north: ellipse=138,38,1580km,1000km,45
+  box=WEST,SOUTH,EAST,NORTH             between meridians and parallels, eastward from WEST to EAST:
+                                        box=-20,30,40,60; over the date line: box=170,-20,-170,0;
+                                        up to the pole: box=-20,60,40,90
   channel=LOWER,UPPER                   the band between two latitudes: channel=-23.5,23.5
   land=FILE,LON,LAT                     the island or continent that contains a place, from a file
                                         as calotte cull --land reads it:
                                         land=/usr/share/gmt-gshhg/binned_GSHHS_l.nc,134,-25
 
-LON, LAT, LOWER and UPPER are in degrees; west and south are negative. RADIUS, MAJOR and MINOR have a
-unit: km or m on the Earth, or deg. Circles, ellipses and parallels become polygons of 360 corners.
+Longitudes and latitudes are in degrees; west and south are negative. RADIUS, MAJOR and MINOR have a
+unit: km or m on the Earth, or deg. Circles, ellipses and channels become polygons of 360 corners. The
+parallels of a box have so many that it errs by less than a thousandth of a cell.
 
 Files:
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/unknown_word.h"
 
+#include "help/guides.h"
 #include "help/nearest_name.h"
 #include "text/text.h"
 
@@ -26,6 +27,12 @@ std::string bare_name(const std::string& option) {
   return name.substr(0, name.find('='));
 }
 
+/// The command line that helps with an unknown word: that of a subject of this name, or else
+/// `help`.
+std::string help_with(const std::string& word, const std::string& help) {
+  return guide_on(word).empty() ? help : "calotte help " + word;
+}
+
 /// \param app that was given the words, of which it does not know the options.
 std::string unknown_option(const CLI::App& app, const std::vector<std::string>& words,
                            const std::string& help) {
@@ -34,8 +41,9 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
   });
   if (word == words.end())
     return "";
+  const std::string name = bare_name(*word);
   return message("unknown option {}; {}", word->substr(0, word->find('=')),
-                 remedy_for(bare_name(*word), option_names(app), "--", help));
+                 remedy_for(name, option_names(app), "--", help_with(name, help)));
 }
 
 } // namespace
@@ -56,8 +64,9 @@ std::string unknown_word(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   const auto commands = app.get_subcommands();
   if (commands.empty() && !words.empty() && !is_option(words.front()))
-    return message("unknown command {}; {}", words.front(),
-                   remedy_for(words.front(), command_names(app), "", help_of(app)));
+    return message(
+        "unknown command {}; {}", words.front(),
+        remedy_for(words.front(), command_names(app), "", help_with(words.front(), help_of(app))));
   const std::string unknown = unknown_option(app, words, "calotte --help");
   if (!unknown.empty() || commands.empty())
     return unknown;
