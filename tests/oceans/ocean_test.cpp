@@ -3,7 +3,9 @@
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/ocean.h>
+#include <calotte/read.h>
 #include <calotte/voronoi.h>
+#include <calotte/widths.h>
 
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
@@ -13,7 +15,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -156,4 +161,68 @@ TEST_CASE("the oceans at 30 km: land, a connected sea, straits [slow]") {
   REQUIRE(earth.cells.cells.cols() == 655362);
   check_fractions(earth);
   check_straits(earth);
+}
+
+namespace {
+
+/// Points on a line, at most a km apart.
+Points3 points_along(const Points3& line) {
+  std::vector<Eigen::Vector3d> points;
+  for (Eigen::Index k = 0; k + 1 < line.cols(); ++k) {
+    const Eigen::Vector3d from = line.col(k), way = line.col(k + 1) - line.col(k);
+    const int steps = static_cast<int>(std::ceil(way.norm() * earth_radius_km));
+    for (int i = 0; i <= steps; ++i)
+      points.emplace_back((from + way * i / steps).normalized());
+  }
+  Points3 all(3, std::ssize(points));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    all.col(static_cast<Eigen::Index>(i)) = points[i];
+  return all;
+}
+
+std::vector<Points3> example_lines(const std::string& name) {
+  return read_lines(CALOTTE_FIXTURES "/../../tools/examples/" + name);
+}
+
+} // namespace
+
+TEST_CASE("the passages of the world are in the sea from end to end, its barriers on land") {
+  constexpr double half_round = std::numbers::pi * earth_radius_km, zero = 1e6;
+  const Widths tells = Widths::by_distance( // the distance from the coast, positive in the sea
+      gshhg('i'), {{{-half_round, zero - half_round}, {half_round, zero + half_round}}});
+  const auto distances = [&](const Points3& line) {
+    return DoubleVector(evaluate(tells, points_along(line)).array() - zero);
+  };
+  const std::vector<Points3> passages = example_lines("passages.geojson"),
+                             barriers = example_lines("barriers.geojson");
+  CHECK(passages.size() > 50);
+  CHECK(barriers.size() > 20);
+  constexpr double of_coast = 0.1; // km: what the intermediate coast simplifies
+  for (std::size_t k = 0; k < passages.size(); ++k) {
+    CAPTURE(k);
+    const DoubleVector sea = distances(passages[k]);
+    CHECK(sea.minCoeff() > -of_coast);
+    CHECK(std::min(sea[0], sea[sea.size() - 1]) > 5);
+  }
+  for (std::size_t k = 0; k < barriers.size(); ++k) {
+    CAPTURE(k);
+    CHECK(distances(barriers[k]).maxCoeff() < 5 * of_coast); // canals, Matochkin Strait
+  }
+}
+
+TEST_CASE("with the passages of the world the marginal seas belong to a coarse ocean") {
+  const Earth earth(6);
+  const SeaCells decided =
+      earth.decided(example_lines("passages.geojson"), example_lines("barriers.geojson"));
+  check_sea(earth, decided.mask);
+  for (const auto& [longitude, latitude] : std::vector<std::array<double, 2>>{
+           {34, 43.2}, {38, 20.5}, {51, 27}, {19, 57.5}, {-85, 59}, {135, 40}, {18, 35}}) {
+    CAPTURE(longitude);
+    CHECK(earth.is_sea(decided.mask, direction(longitude, latitude)));
+  }
+  const SeaCells without = earth.decided({});
+  REQUIRE(!without.report.severed_parts.empty());
+  CHECK(without.report.severed_parts[0].cells > 50); // the Mediterranean or the Black Sea
+  for (std::size_t k = 1; k < without.report.severed_parts.size(); ++k)
+    CHECK(without.report.severed_parts[k].cells <= without.report.severed_parts[k - 1].cells);
 }
