@@ -152,10 +152,9 @@ std::string stranded_passages(const CullReport& report, const CullOptions& optio
     const Points2 at = to_lonlat(line.col(line.cols() / 2));
     positions.push_back(lonlat_words(at(0, 0), at(1, 0)));
   }
-  return positions.empty()
-             ? ""
-             : message("{} without effect, as no cell of the sea is at their ends: {}\n",
-                       counted(std::ssize(positions), "passage"), listed(positions));
+  return positions.empty() ? ""
+                           : message("{} on land only, without effect: {}\n",
+                                     counted(std::ssize(positions), "passage"), listed(positions));
 }
 
 std::string describe_cull(const CullRequest& request, const CullOptions& options,

@@ -157,10 +157,10 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
       "Draw meridians and parallels: every 30 degrees, or closer on an enlarged map. An "
       "enlarged globe has them also without this option where they are bent");
   command
-      .add_option(
-          "--region", arguments.region,
-          "Draw the boundary of a region: circle=LON,LAT,RADIUS, ellipse=..., channel=... or "
-          "a file; see calotte help region")
+      .add_option("--region", arguments.region,
+                  "Draw the boundary of a region: a shape such as circle=-105,40,1000km or "
+                  "box=-20,30,40,60, or "
+                  "a file; see calotte help region")
       ->type_name("SHAPE|FILE");
   add_inside(command, arguments.inside);
   add_coastlines(command, arguments.coastlines);
