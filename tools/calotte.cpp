@@ -81,6 +81,19 @@ void run(CLI::App& app, int argc, char** argv) {
     std::cout << app.help();
 }
 
+/// The remedy where the file that cannot be read is a value without its option, or a unit that a
+/// blank separates from its number; "" for other files.
+std::string with_value(const std::string& text) {
+  constexpr std::string_view start = "cannot read ";
+  const std::string name =
+      text.starts_with(start) ? text.substr(start.size(), text.find(':') - start.size()) : "";
+  for (const std::string_view unit : {"km", "m", "deg"})
+    if (name == unit)
+      return message("; a number and its unit are one word, such as 60{}", unit);
+  const bool number = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
+  return number ? message("; a number of cells is --cells {}", name) : "";
+}
+
 /// A message of the library, with the option that is its remedy here.
 std::string with_option(const std::string& text) {
   static const std::vector<std::pair<std::string, std::string>> options{
@@ -95,10 +108,7 @@ std::string with_option(const std::string& text) {
   for (const auto& [remedy, option] : options)
     if (text.ends_with(remedy))
       return text + option;
-  for (const char* unit : {"km", "m", "deg"}) // a number and a unit that a blank separates
-    if (text.starts_with(message("cannot read {}: ", unit)))
-      return message("{}; a number and its unit are one word, such as 60{}", text, unit);
-  return text;
+  return text + with_value(text);
 }
 
 /// The message about a command line that cannot be read. A misspelt option comes first: the option

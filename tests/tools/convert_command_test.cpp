@@ -474,6 +474,30 @@ TEST_CASE("cull: an ocean grid, and what became of its cells") {
   check_refusals(bench, "cull global.nc", "--land land.geojson -o global.nc | 2 | global.nc");
 }
 
+TEST_CASE("cull prints the seas that it leaves out, and passages of the world connect them") {
+  const Bench bench;
+  const std::string land = "cull earth.nc --land " CALOTTE_GSHHG "/binned_GSHHS_l.nc -o ocean.nc ",
+                    examples = CALOTTE_FIXTURES "/../../tools/examples/";
+  REQUIRE(bench.run("cvt --cells 10242 --for mpas-ocean -o earth.nc").code == 0);
+  const Outcome parted = bench.run(land);
+  CHECK(parted.code == 0);
+  CHECK(has(parted.out, "\n  around 39.5 E 18.0 N      4\n")); // the Red Sea
+  CHECK(has(parted.out, "\n  --passage connects a part, --seed LON,LAT keeps one\n"));
+  const Outcome joined = bench.run(land + "--passage " + examples + "passages.geojson --barrier " +
+                                   examples + "barriers.geojson --least-area 10000km2");
+  CHECK(joined.code == 0);
+  CHECK(has(joined.out, "\ncells in parts left out     0\n"));
+  CHECK(!has(joined.out, "around"));
+  bench.file("inland.geojson", R"({"type": "MultiLineString", "coordinates":
+      [[[-10, 36], [0, 38]], [[60, 60], [65, 60]]]})");
+  CHECK(has(bench.run(land + "--passage inland.geojson").out,
+            "1 passage on land only, without effect: 65.0 E 60.0 N\n"));
+  check_refusals(bench, land, R"(
+--least-area 1000km | 2 | --least-area: "1000km" is no area; give km^2, such as 1000
+--least-area 1e9 | 2 | all land of the coast is smaller than the least area
+)");
+}
+
 TEST_CASE("cull: the coast of GSHHG, maps of cells; the land around a place as a region") {
   const Bench bench;
   const std::string coast = CALOTTE_GSHHG "/binned_GSHHS_c.nc";

@@ -200,6 +200,9 @@ cvtt | 2 | unknown command cvtt; did you mean cvt? See calotte --help
 cvtt --cells 12 -o mesh.vtp | 2 | unknown command cvtt; did you mean cvt?
 cvtt --help | 2 | unknown command cvtt; did you mean cvt?
 grid | 2 | unknown command grid; see calotte help grid
+cvt --outside 300 -o mesh.vtp | 2 | unknown option --outside; did you mean --outside-width?
+cvt 642 -o mesh.vtp | 3 | check its name and its permissions; a number of cells is --cells 642
+cvt --cell-width 60 km -o mesh.vtp | 3 | permissions; a number and its unit are one word, such as 60km
 ocean earth.nc | 2 | unknown command ocean; see calotte help ocean
 cvt --resolution 60km -o mesh.vtp | 2 | unknown option --resolution; see calotte help resolution
 --verison | 2 | unknown option --verison; did you mean --version? See calotte --help

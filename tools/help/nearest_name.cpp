@@ -38,6 +38,11 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
       nearest = other;
     }
   }
+  constexpr std::size_t telling = 4; // letters, of the start of a name
+  if (nearest.empty() && name.size() >= telling)
+    for (const std::string& other : names)
+      if (hyphenated(other).starts_with(hyphenated(name)))
+        return other;
   return nearest;
 }
 

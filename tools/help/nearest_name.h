@@ -12,7 +12,8 @@ std::string hyphenated(std::string name);
 /// The number of letters to change, add or remove to make one of the other (Levenshtein).
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// The nearest of the names; "" if all are too different.
+/// The nearest of the names, or else the first that starts with the name; "" if all are too
+/// different.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& names);
 
 /// The end of a message about an unknown name: "did you mean NEAREST? See HELP", or "see HELP" if

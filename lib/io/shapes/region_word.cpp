@@ -104,6 +104,9 @@ private:
                                          : 0;
     if (!(angle > 0))
       refuse_word(message("\"{}\" is no positive length such as 1000km or 30deg", values_[value]));
+    if (!(angle < std::numbers::pi))
+      refuse_word(message("\"{}\" is {} degrees, half of the way round the sphere or more",
+                          values_[value], angle / degree));
     return angle;
   }
 
