@@ -139,7 +139,7 @@ std::string severed_parts(const CullReport& report) {
                  message("{}", report.sea.severed_parts[k].cells));
   }
   if (const auto parts = std::ssize(report.sea.severed_parts); parts > 0)
-    lines += message("{}--passage connects a part, --seed LON,LAT keeps one\n",
+    lines += message("{}--passage connects a part, --seed selects parts by places in them\n",
                      report.sea.parts - parts > 1 ? "  and others; " : "  ");
   return lines;
 }

@@ -42,9 +42,13 @@ std::string help_on(const CLI::App& app, const std::string& name) {
     if (command->get_name() == name)
       return command->get_formatter()->make_help(command, message("{} {}", command_line, name),
                                                  mode);
-  if (std::string text = guide_on(name); !text.empty())
-    return text;
-  if (std::string text = mentions_of(app, name); !text.empty())
+  std::string text = guide_on(name);
+  for (const std::string& word : split(name, '-')) // such as of sea-ice
+    if (text.empty())
+      text = guide_on(word);
+  if (text.empty())
+    text = mentions_of(app, name);
+  if (!text.empty())
     return text;
   refuse_topic(app, name);
 }

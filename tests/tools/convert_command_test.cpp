@@ -482,7 +482,7 @@ TEST_CASE("cull prints the seas that it leaves out, and passages of the world co
   const Outcome parted = bench.run(land);
   CHECK(parted.code == 0);
   CHECK(has(parted.out, "\n  around 39.5 E 18.0 N      4\n")); // the Red Sea
-  CHECK(has(parted.out, "\n  --passage connects a part, --seed LON,LAT keeps one\n"));
+  CHECK(has(parted.out, "\n  --passage connects a part, --seed selects parts by places in them\n"));
   const Outcome joined = bench.run(land + "--passage " + examples + "passages.geojson --barrier " +
                                    examples + "barriers.geojson --least-area 10000km2");
   CHECK(joined.code == 0);

@@ -138,6 +138,7 @@ TEST_CASE("help knows the words of modellers, and names options, topics and page
     for (std::size_t k = 0; k + 1 < lines.size(); ++k)
       CHECK(lines[k].size() <= 100);
   }
+  CHECK(help_text(bench, "help sea ice") == help_text(bench, "help ocean"));
   CHECK(has(help_text(bench, "help dislocations"), "Options that mention \"dislocations\":\n"));
 }
 
