@@ -52,6 +52,20 @@ struct Density {
   /// cell.
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
+  /// The density at one point: a unit vector, in the plane (x, y, 0).
+  using PointFunction = std::function<double(const Eigen::Vector3d& x)>;
+
+  Density() = default;
+  /// The density of a function, which asks for the conditions of Callable: many threads call it at
+  /// once, so that it must not write to what they share. What it throws ends the call that needs
+  /// the density. Its values are densities, not widths: for cells of the width w(x) let it return
+  /// w(x)^(-4), up to a factor.
+  ///
+  ///     const Density finer_in_the_north([](const Eigen::Vector3d& x) { return x.z() > 0 ? 16 : 1;
+  ///     });
+  ///
+  /// \throws Error invalid_argument for an empty function.
+  explicit Density(PointFunction rho);
 
   Kind kind = Kind::uniform; ///< what determines the density
   std::vector<DensityBump> bumps =

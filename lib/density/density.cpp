@@ -14,6 +14,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 namespace calotte {
 namespace density_detail {
@@ -204,6 +205,16 @@ void DensityEvaluator::call(std::span<const double> x, std::span<const double> y
 }
 
 } // namespace density_detail
+
+Density::Density(PointFunction rho) : kind(Kind::callable) {
+  if (!rho)
+    base_detail::refuse("the function of a density is empty; give one");
+  callable = [rho = std::move(rho)](const Eigen::Ref<const Points3>& x,
+                                    Eigen::Ref<Eigen::VectorXd> values) {
+    for (Eigen::Index j = 0; j < x.cols(); ++j)
+      values[j] = rho(x.col(j));
+  };
+}
 
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma) {
   Density density;

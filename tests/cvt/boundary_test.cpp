@@ -204,12 +204,7 @@ TEST_CASE("boundary: in the plane the mesh fills the domain to its corners [slow
     recipe.cells = 1500;
     if (graded)
       recipe.resolution =
-          Density{Density::Kind::callable,
-                  {},
-                  {},
-                  [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
-                    rho = (1 + x.colwise().squaredNorm().array()).pow(-4).transpose();
-                  }};
+          Density([](const Eigen::Vector3d& x) { return std::pow(1 + x.squaredNorm(), -4); });
     const Schedule schedule = plan(recipe);
     const Cvt grid = make_grid(schedule);
     const Mesh& mesh = grid.mesh;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -272,4 +273,16 @@ TEST_CASE("the sites' density is the root of the density") {
   const Eigen::VectorXd root = evaluate(site_density(density), x);
   CHECK((root.cwiseAbs2() - evaluate(density, x)).cwiseAbs().maxCoeff() < 1e-15);
   CHECK(site_density(Density{}).uniform());
+}
+
+TEST_CASE("a function of a point is a density, and what it throws ends the call") {
+  const Points3 x = random_sphere(1000, 5);
+  const Density density([](const Eigen::Vector3d& at) { return 1 + at.z() * at.z(); });
+  CHECK(evaluate(density, x) == (1 + x.row(2).array().square()).matrix().transpose());
+  const Density faulty([](const Eigen::Vector3d& at) { return at.z(); });
+  CHECK(message_of(faulty).find("somewhere") != std::string::npos);
+  const Density throwing([](const Eigen::Vector3d&) -> double { throw std::out_of_range("here"); });
+  CHECK_THROWS_AS(evaluate(throwing, x), std::out_of_range);
+  CHECK_THROWS_WITH_AS(Density(Density::PointFunction()),
+                       "the function of a density is empty; give one", Error);
 }

@@ -12,16 +12,11 @@ int main(int argc, char** argv) {
   const std::size_t limit = argc > 1 ? std::stoul(argv[1]) : 10'000;
 
   // Widths are proportional to rho^(-1/4): here twice as wide at the poles as at the equator. Many
-  // threads call the function at once, with a block of points each.
-  calotte::Density density;
-  density.kind = calotte::Density::Kind::callable;
-  density.callable = [](const Eigen::Ref<const calotte::Points3>& x,
-                        Eigen::Ref<Eigen::VectorXd> rho) {
-    for (Eigen::Index j = 0; j < x.cols(); ++j) {
-      const double root = 1 + 3 * x(2, j) * x(2, j);
-      rho[j] = 1 / (root * root);
-    }
-  };
+  // threads call the function at once.
+  const calotte::Density density([](const Eigen::Vector3d& x) {
+    const double root = 1 + 3 * x.z() * x.z();
+    return 1 / (root * root);
+  });
   calotte::RunOptions options;
   options.progress = [limit](const calotte::Progress& now) { // one thread at a time
     const calotte::CvtReport& report = now.run->report;
