@@ -112,13 +112,15 @@ void add_cartesian(NetcdfGridFile& file, const std::string& prefix, int dimensio
 template <class Node>
 void add_face_nodes(NetcdfGridFile& file, int faces, std::int64_t most, const Node& node) {
   const int corners = file.netcdf().dimension("mesh_max_face_nodes", most);
-  file.ints(face_nodes_name, {faces, corners},
-            {{"cf_role", std::string("face_node_connectivity")},
-             long_name("nodes of the face, counter-clockwise seen from outside"),
-             {"units", std::string("1")},
-             {"start_index", std::int32_t{0}},
-             {"_FillValue", std::int32_t{-1}}},
-            table<std::int32_t>(most, node));
+  file.ints(
+      face_nodes_name, {faces, corners},
+      {{"cf_role", std::string("face_node_connectivity")},
+       long_name("nodes of the face, counter-clockwise seen from outside, 0-based; -1 where there "
+                 "is none"),
+       {"units", std::string("1")},
+       {"start_index", std::int32_t{0}},
+       {"_FillValue", std::int32_t{-1}}},
+      table<std::int32_t>(most, node));
 }
 
 constexpr const char* conventions = "CF-1.8 UGRID-1.0";

@@ -63,9 +63,12 @@ void add_coordinates(const MpasKind& kind, std::vector<MpasVariable>& table) {
                    .rows = kind.rows,
                    .integer = true,
                    .numbers = N::own,
-                   .long_name = "number of each " + kind.word,
+                   .long_name = "number of each " + kind.word + ", 1-based",
                    .rule = "numbers from 1 on"});
 }
+
+/// What ids are, with the number from which they count.
+std::string ids(const std::string& what) { return what + index_base; }
 
 /// The lists of ids.
 std::vector<MpasVariable> connectivity() {
@@ -81,7 +84,7 @@ std::vector<MpasVariable> connectivity() {
        .columns = D::max_edges,
        .integer = true,
        .numbers = N::edges,
-       .long_name = "edges of each cell, counter-clockwise",
+       .long_name = ids("edges of each cell, counter-clockwise"),
        .rule = "the edges of each cell, counter-clockwise, then 0"},
       {.name = mpas::vertices_on_cell,
        .rows = D::cells,
@@ -96,23 +99,24 @@ std::vector<MpasVariable> connectivity() {
        .columns = D::max_edges,
        .integer = true,
        .numbers = N::cells,
-       .long_name = "neighbours of each cell, across the edges of edgesOnCell",
+       .long_name = ids("neighbours of each cell, across the edges of edgesOnCell"),
        .rule = "the neighbours of each cell across its edges, then 0"},
       {.name = mpas::cells_on_edge,
        .rows = D::edges,
        .columns = D::two,
        .integer = true,
        .numbers = N::cells,
-       .long_name = "cells on both sides of each edge: its normal points from the first to the "
-                    "second",
+       .long_name = ids("cells on both sides of each edge: its normal points from the first to the "
+                        "second"),
        .rule = "pairs of neighbouring cells, each pair once"},
       {.name = mpas::vertices_on_edge,
        .rows = D::edges,
        .columns = D::two,
        .integer = true,
        .numbers = N::vertices,
-       .long_name = "vertices at both ends of each edge: its tangent points from the first to the "
-                    "second, and is the normal turned to the left",
+       .long_name =
+           ids("vertices at both ends of each edge: its tangent points from the first to the "
+               "second, and is the normal turned to the left"),
        .rule = "the vertices to the right and to the left of the way from the first to the second "
                "cell of each edge"},
       {.name = mpas::cells_on_vertex,
@@ -120,15 +124,16 @@ std::vector<MpasVariable> connectivity() {
        .columns = D::degree,
        .integer = true,
        .numbers = N::cells,
-       .long_name = "cells around each vertex, counter-clockwise: cell j lies between edges j and "
-                    "j + 1 of edgesOnVertex",
+       .long_name =
+           ids("cells around each vertex, counter-clockwise: cell j lies between edges j and "
+               "j + 1 of edgesOnVertex"),
        .rule = "cells of a vertex, counter-clockwise"},
       {.name = mpas::edges_on_vertex,
        .rows = D::vertices,
        .columns = D::degree,
        .integer = true,
        .numbers = N::edges,
-       .long_name = "edges at each vertex, counter-clockwise",
+       .long_name = ids("edges at each vertex, counter-clockwise"),
        .rule = "the edges at each vertex, counter-clockwise, edge j before cell j of "
                "cellsOnVertex"},
       {.name = mpas::boundary_vertex,
@@ -148,8 +153,8 @@ std::vector<MpasVariable> connectivity() {
        .columns = D::max_edges2,
        .integer = true,
        .numbers = N::edges,
-       .long_name = "other edges of the cells on each edge: those of the first cell, "
-                    "counter-clockwise from the edge on, then of the second",
+       .long_name = ids("other edges of the cells on each edge: those of the first cell, "
+                        "counter-clockwise from the edge on, then of the second"),
        .rule = "the other edges of the first cell of each edge, counter-clockwise from it on, then "
                "of the second, then 0"},
   };

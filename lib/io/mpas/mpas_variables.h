@@ -86,6 +86,9 @@ enum class MpasNumbers {
   lists_of_ids, ///< lists of ids that models make, in formats of their own
 };
 
+/// The end of the long_name of ids.
+inline constexpr const char* index_base = ", 1-based; 0 where there is none";
+
 /// A row of the table. A variable without dimensions is one number.
 struct MpasVariable {
   std::string name;

@@ -77,12 +77,10 @@ VertexOrder read_vertex_order(const NetcdfReader& file) {
   return VertexOrder::after_edges;
 }
 
-const char* described(VertexOrder order) {
-  return order == VertexOrder::after_edges
-             ? "vertices of each cell, counter-clockwise: edge k of edgesOnCell lies between "
-               "vertices k - 1 and k"
-             : "vertices of each cell, counter-clockwise: edge k of edgesOnCell lies between "
-               "vertices k and k + 1";
+std::string described(VertexOrder order) {
+  return std::string("vertices of each cell, counter-clockwise: edge k of edgesOnCell lies between "
+                     "vertices ") +
+         (order == VertexOrder::after_edges ? "k - 1 and k" : "k and k + 1") + index_base;
 }
 
 } // namespace calotte::io_detail

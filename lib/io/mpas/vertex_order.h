@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 
 namespace calotte::io_detail {
 
@@ -17,7 +18,7 @@ namespace calotte::io_detail {
 VertexOrder read_vertex_order(const NetcdfReader& file);
 
 /// The long_name of verticesOnCell.
-const char* described(VertexOrder order);
+std::string described(VertexOrder order);
 
 /// Converts the vertices of one cell from the order of MPAS-Tools, as in Voronoi, to that of
 /// MPAS-Atmosphere.
