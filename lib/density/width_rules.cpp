@@ -35,7 +35,8 @@ constexpr double degrees = 180 / std::numbers::pi;
 class ConstantRule : public WidthRule {
 public:
   explicit ConstantRule(double width) : WidthRule(RuleSpace::any), width_(width) {
-    require(width > 0, "the cell width {} is not a positive number; give one", width);
+    require(width > 0, "the cell width {} is not a positive number; give km, in a plane its unit",
+            width);
   }
   void evaluate(std::span<const Vec3>, std::span<double> widths) const override {
     std::fill(widths.begin(), widths.end(), width_);

@@ -257,7 +257,8 @@ TEST_CASE("a place without a width is refused, also where no node lies in the su
 
 TEST_CASE("widths that are none are refused by name") {
   const auto message = [](const auto& make) { return std::string(error_of(make).what()); };
-  CHECK(message([] { Widths(-1.0); }) == "the cell width -1 is not a positive number; give one");
+  CHECK(message([] { Widths(-1.0); }) ==
+        "the cell width -1 is not a positive number; give km, in a plane its unit");
   CHECK(message([] { Widths::by_latitude({}); }) ==
         "a profile of the latitude has no node; give one or more");
   CHECK(message([] {

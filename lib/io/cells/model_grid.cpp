@@ -27,8 +27,8 @@ template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const
 } // namespace
 
 Points3 on_sphere(Points3 points, double radius) {
-  require(radius > 0 && std::isfinite(radius), "the sphere's radius is {}; it must be positive",
-          radius);
+  require(radius > 0 && std::isfinite(radius),
+          "the sphere's radius is {}; give a positive number of metres", radius);
   constexpr double rounding = 0x1p-50; // of a norm, in which four operations round
   for_each_block(points.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)

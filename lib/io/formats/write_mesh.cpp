@@ -29,7 +29,8 @@ namespace io_detail {
 
 void require_options(const std::string& path, const WriteOptions& options) {
   if (!(options.sphere_radius > 0 && std::isfinite(options.sphere_radius)))
-    refuse_path(path, "the sphere's radius is {}; give a positive number", options.sphere_radius);
+    refuse_path(path, "the sphere's radius is {}; give a positive number of metres",
+                options.sphere_radius);
   if (const double planet = options.planet_radius.value_or(1);
       !(planet > 0 && std::isfinite(planet)))
     refuse_path(path, "the planet's radius is {}; give a positive number of metres", planet);
