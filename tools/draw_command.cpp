@@ -41,6 +41,16 @@ void draw_reports(const DrawArguments& arguments) {
                        counted(std::ssize(histories), "run"));
 }
 
+/// Throws for options of a field without one.
+void require_field(const DrawArguments& arguments) {
+  const MeshSource& source = *arguments.source;
+  if (arguments.options.colouring != Colouring::field || !arguments.error_of.empty()) {
+    require(source.mesh.empty() && source.at.empty(),
+            "{} is for a field of MESH; name it, as in --colour field:NAME",
+            source.mesh.empty() ? "--at" : "--mesh");
+  }
+}
+
 /// Throws for a density without an option that uses it, and for a missing density.
 void require_density(const DrawArguments& arguments) {
   const bool wanted = arguments.spacing_law || arguments.options.colouring == Colouring::density;
@@ -54,12 +64,18 @@ void require_density(const DrawArguments& arguments) {
   }
 }
 
+/// A field of MESH at the indices of --at; the mask of a limited area is in the mesh's file.
+CellField read_chosen_field(const MeshSource& source, const std::string& name, std::int64_t cells) {
+  return name == limited_area_mask_name ? read_cell_field(source.mesh_path(), name, cells)
+                                        : read_cell_field(source.path, name, cells, source.at);
+}
+
 /// The values of the mesh's sites; a cell whose site has duplicates has the value of the first.
-CellField read_field(const std::string& path, const std::string& name, const Mesh& mesh) {
+CellField read_field(const MeshSource& source, const std::string& name, const Mesh& mesh) {
   const auto cells = mesh.site_of_input.empty()
                          ? static_cast<std::int64_t>(mesh.points.cols())
                          : static_cast<std::int64_t>(mesh.site_of_input.size());
-  CellField field = read_cell_field(path, name, cells);
+  CellField field = read_chosen_field(source, name, cells);
   if (cells != mesh.points.cols()) {
     const DoubleVector values = field.values;
     field.values.resize(mesh.points.cols());
@@ -92,13 +108,21 @@ OperatorErrors errors_of(const Mesh& mesh) {
 }
 
 /// A field of the file, read with the cells.
-CellField field_of(const DrawOptions& options, const std::string& path, const MeshFile& file,
+CellField field_of(const DrawOptions& options, const MeshSource& source, const MeshFile& file,
                    std::int64_t cells) {
   const std::string& name = options.field_name;
-  if (const MeshField* const field = find_cell_field(file, name, cells)) {
+  const MeshField* const field = find_cell_field(file, name, cells);
+  if (field != nullptr && source.mesh.empty() && source.at.empty()) {
     return {field->values, field->long_name, field->units};
   }
-  return read_cell_field(path, name, cells);
+  return read_chosen_field(source, name, cells);
+}
+
+/// Adds the indices of --at to the name of a field.
+void name_indices(const MeshSource& source, DrawOptions& options) {
+  if (!source.at.empty()) {
+    options.field_name += " at " + words_of(source.at);
+  }
 }
 
 /// Sets the region whose boundary is drawn, if one is given.
@@ -145,7 +169,7 @@ DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
 void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
   const Polygons& cells = *file.polygons;
   const std::string not_voronoi = message("{}: the cells are not Voronoi cells ({})",
-                                          arguments.source->path, file.not_voronoi.text());
+                                          arguments.source->mesh_path(), file.not_voronoi.text());
   if (arguments.spacing_law ||
       (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
     refuse(not_voronoi + "; draw them with --what cells");
@@ -155,7 +179,8 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
   }
   DrawOptions options = options_for(arguments, file);
   if (shows_field(options)) {
-    options.field = field_of(options, arguments.source->path, file, cells.size());
+    options.field = field_of(options, *arguments.source, file, cells.size());
+    name_indices(*arguments.source, options);
   }
   draw(arguments.output, cells, options);
   std::cout << changes_of(*arguments.source, file)
@@ -165,19 +190,20 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
 void draw_mesh(const DrawArguments& arguments) {
   const WidthWords& widths = arguments.density->widths;
   require_outputs({{"picture", arguments.output}},
-                  {arguments.source->path, arguments.source->points, widths.file, widths.raster,
-                   arguments.domain->file.value_or("")});
+                  {arguments.source->path, arguments.source->points, arguments.source->mesh,
+                   widths.file, widths.raster, arguments.domain->file.value_or("")});
   require_density(arguments);
+  require_field(arguments);
   const bool plane = arguments.source->plane;
   std::optional<Surface> domain = surface_of(*arguments.domain);
   const Density density =
       density_of(*arguments.density, plane ? domain.value_or(Surface::plane()) : Surface());
   MeshFile file =
-      read_mesh_file(*arguments.source, plane ? FieldChoice::none : FieldChoice::scalars);
+      read_mesh_alone(*arguments.source, plane ? FieldChoice::none : FieldChoice::scalars);
   DrawOptions options = options_for(arguments, file);
   options.density = density;
   if (!plane && file.plane()) {
-    refuse_path(arguments.source->path,
+    refuse_path(arguments.source->mesh_path(),
                 "it holds a mesh of the plane; read it as one of the plane");
   }
   if (!plane && file.other_cells()) {
@@ -197,7 +223,8 @@ void draw_mesh(const DrawArguments& arguments) {
   if (!arguments.error_of.empty()) {
     set_errors(arguments.error_of, errors_of(mesh), options);
   } else if (shows_field(options)) {
-    options.field = read_field(arguments.source->path, options.field_name, mesh);
+    options.field = read_field(*arguments.source, options.field_name, mesh);
+    name_indices(*arguments.source, options);
   }
   if (arguments.spacing_law) {
     draw_spacing_law(arguments.output, mesh, options.density, options.look.size);
@@ -285,11 +312,14 @@ void add_draw(CLI::App& app) {
   CLI::App* command = app.add_subcommand("draw", "Draws a mesh or a density on a map, its spacing "
                                                  "law, or the convergence of CVT runs.");
   const std::shared_ptr<DrawArguments> arguments = add_draw_options(*command);
-  set_help(*command, {.common = {"MESH", "--output", "--what", "--colour", "--projection", "--view",
-                                 "--zoom", "--region", "--size", "--density", "--cell-width",
-                                 "--units", "--history", "--spacing-law", "--plane"},
-                      .examples = {"calotte draw mesh.nc -o globe.png --what cells --view 285,38",
-                                   "calotte draw --history report.json -o convergence.png"}});
+  set_help(*command,
+           {.common = {"MESH", "--mesh", "--at", "--output", "--what", "--colour", "--projection",
+                       "--view", "--zoom", "--region", "--size", "--density", "--cell-width",
+                       "--units", "--history", "--spacing-law", "--plane"},
+            .examples = {"calotte draw mesh.nc -o globe.png --what cells --view 285,38",
+                         "calotte draw history.nc --mesh mesh.nc --colour field:theta "
+                         "--at time=3,lev=0 -o theta.png",
+                         "calotte draw --history report.json -o convergence.png"}});
   command->callback([arguments] { run(*arguments); });
 }
 

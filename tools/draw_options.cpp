@@ -221,8 +221,8 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
   for (const char* name : {"--range", "--palette", "--title"}) {
     law->excludes(command.get_option(name));
   }
-  for (const char* name :
-       {"MESH", "--points", "--lonlat", "--spacing-law", "--range", "--palette", "--title"}) {
+  for (const char* name : {"MESH", "--mesh", "--at", "--points", "--lonlat", "--spacing-law",
+                           "--range", "--palette", "--title"}) {
     history->excludes(command.get_option(name));
   }
   for (const CLI::Option* option : arguments.density_options) {
@@ -249,6 +249,7 @@ std::shared_ptr<DrawArguments> add_draw_options(CLI::App& command) {
   const OptionGroup group(command, "Files");
   arguments->source = add_mesh_source(command);
   command.get_option("MESH")->required(false); // a density or a report replaces it
+  add_fields_of(command, *arguments->source);
   command.add_option("-o,--output", arguments->output, "Output picture: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");

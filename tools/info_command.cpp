@@ -45,8 +45,8 @@ struct InfoRequest {
 void require_report(const InfoRequest& request) {
   const WidthWords& widths = request.density->widths;
   require_outputs({{"report", request.report}},
-                  {request.source->path, request.source->points, widths.file, widths.raster,
-                   request.domain->file.value_or("")});
+                  {request.source->path, request.source->points, request.source->mesh, widths.file,
+                   widths.raster, request.domain->file.value_or("")});
 }
 
 std::optional<double> radius_of(const InfoRequest& request, const MeshFile& file) {
@@ -184,10 +184,40 @@ std::string cell_table(const InfoRequest& request, const MeshFile& file) {
   return cell_table(mesh, *request.cell);
 }
 
+/// The ranges of the fields with a number for each cell, a line each.
+std::string field_table(const InfoRequest& request) {
+  const MeshSource& source = *request.source;
+  if (!request.report.empty() || request.operators)
+    refuse("--mesh and --at print fields, without a report and operators; leave these out");
+  const MeshFile file = read_mesh_file(source, FieldChoice::scalars);
+  std::string lines;
+  for (const MeshField& field : file.fields)
+    if (field.location == FieldLocation::cells) {
+      const Quantity quantity = quantity_of(field);
+      const auto text = [&](const std::optional<double>& value) {
+        return value ? value_text(*value, "") : "no value";
+      };
+      lines += row(field.name, 26,
+                   message("{} to {}, mean {}{}{}", text(quantity.least), text(quantity.greatest),
+                           text(quantity.mean), quantity.unit.empty() ? "" : " " + quantity.unit,
+                           quantity.missing > 0 ? message(", {} missing", quantity.missing) : ""));
+    }
+  if (lines.empty())
+    lines = "no field has one number for each cell; choose indices by --at\n";
+  if (!source.at.empty())
+    lines = row("indices", 26, words_of(source.at)) + lines;
+  if (!file.ignored.empty())
+    lines += message("not shown: {}, which have several numbers for each cell, or none\n",
+                     listed(file.ignored));
+  return lines;
+}
+
 /// The table to print. Writes the report, too.
 std::string read_and_measure(const InfoRequest& request) {
   Progress progress;
   progress.stage("reading " + request.source->path);
+  if (!request.cell && !(request.source->mesh.empty() && request.source->at.empty()))
+    return field_table(request);
   MeshFile file =
       read_mesh_file(*request.source, request.cell ? FieldChoice::scalars : FieldChoice::none);
   if (const std::optional<Surface> part = surface_of(*request.domain))
@@ -241,6 +271,7 @@ void add_info(CLI::App& app) {
       "help measures explains the words.");
   auto request = std::make_shared<InfoRequest>();
   request->source = add_mesh_source(*command);
+  add_fields_of(*command, *request->source);
   add_plane(*command, *request->source);
   request->domain = add_domain(*command);
   request->density = add_density(*command);
@@ -260,9 +291,11 @@ void add_info(CLI::App& app) {
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
   set_help(*command,
-           {.common = {"MESH", "--points", "--plane", "--domain", "--density", "--cell-width",
-                       "--sphere-radius", "--units", "--cell", "--operators", "--report"},
+           {.common = {"MESH", "--mesh", "--at", "--points", "--plane", "--domain", "--density",
+                       "--cell-width", "--sphere-radius", "--units", "--cell", "--operators",
+                       "--report"},
             .examples = {"calotte info mesh.nc", "calotte info mesh.nc --operators",
+                         "calotte info history.nc --mesh mesh.nc --at time=3,lev=0",
                          "calotte info mesh.vtp --sphere-radius earth --cell-width 60km"}});
   command->callback([request] { run(*request); });
 }

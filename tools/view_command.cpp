@@ -65,9 +65,10 @@ void require_request(const ViewRequest& request) {
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
                         : "give a mesh, or --plan and the widths of a grid");
   if (request.plan && (!request.fields.empty() || !request.report.empty() || request.operators ||
-                       request.source->plane || !request.source->points.empty()))
-    refuse("--plan shows widths on the sphere; leave out --field, --history, --operators, --plane "
-           "and --points");
+                       request.source->plane || !request.source->points.empty() ||
+                       !request.source->mesh.empty() || !request.source->at.empty()))
+    refuse("--plan shows widths on the sphere; leave out --field, --mesh, --at, --history, "
+           "--operators, --plane and --points");
   if (request.plan && request.sphere_radius && request.density->widths.in_km())
     refuse("widths in km refer to --earth-radius; give it in place of --sphere-radius");
   if (!request.plan && request.cells)
@@ -79,8 +80,9 @@ void require_request(const ViewRequest& request) {
   if (!request.plan)
     require_input(request.source->path); // before the page, which may be named after it
   require_outputs({{"page", output_of(request)}},
-                  {request.source->path, request.source->points, request.other, request.report,
-                   widths.file, widths.raster, request.domain->file.value_or("")});
+                  {request.source->path, request.source->points, request.source->mesh,
+                   request.other, request.report, widths.file, widths.raster,
+                   request.domain->file.value_or("")});
 }
 
 /// A mesh to show, and the radius of its sphere if it is known.
@@ -104,8 +106,12 @@ std::vector<ViewInput> read_inputs(const ViewRequest& request, Progress& progres
   std::vector<ViewInput> inputs = {read_input(request, *request.source, progress)};
   if (request.other.empty())
     return inputs;
-  inputs.push_back(
-      read_input(request, {.path = request.other, .plane = request.source->plane}, progress));
+  inputs.push_back(read_input(request,
+                              {.path = request.other,
+                               .plane = request.source->plane,
+                               .mesh = request.source->mesh,
+                               .at = request.source->at},
+                              progress));
   if (!inputs[0].file.plane() != !inputs[1].file.plane())
     refuse_path(request.other, "one mesh is of the sphere and one of the plane; view them apart");
   for (std::size_t k = 0; k < 2; ++k)
@@ -135,6 +141,8 @@ ViewPage view_of_meshes(const ViewRequest& request, Progress& progress) {
     view.title += (view.title.empty() ? "" : " and ") + file_name(input.source);
     const std::string changes = changes_of(input.source, input.file);
     view.meshes.push_back(view_mesh(file_name(input.source), std::move(input.file), choice));
+    if (const std::string indices = words_of(input.source.at); !indices.empty())
+      view.meshes.back().notice += message("Fields are shown at {}. ", indices);
     std::cerr << changes;
   }
   view.side_by_side = view.meshes.size();
@@ -258,7 +266,10 @@ void add_view(CLI::App& app) {
   auto request = std::make_shared<ViewRequest>();
   request->source = add_mesh_source(*command);
   command->get_option("MESH")->required(false); // --plan replaces it
-  command->add_option("OTHER", request->other, "A second mesh, shown beside the first")
+  add_fields_of(*command, *request->source);
+  command
+      ->add_option("OTHER", request->other,
+                   "A second mesh, shown beside the first; with --mesh a second file of fields")
       ->type_name("FILE");
   command
       ->add_option("-o,--output", request->output,
@@ -270,8 +281,8 @@ void add_view(CLI::App& app) {
   request->domain = add_domain(*command);
   request->density = add_density(*command);
   add_plan_options(*command, *request);
-  set_help(*command, {.common = {"MESH", "OTHER", "--output", "--open", "--field", "--history",
-                                 "--density", "--cell-width", "--plane", "--plan"},
+  set_help(*command, {.common = {"MESH", "OTHER", "--mesh", "--at", "--output", "--open", "--field",
+                                 "--history", "--density", "--cell-width", "--plane", "--plan"},
                       .examples = {"calotte view mesh.nc --open",
                                    "calotte view mine.nc theirs.nc -o both.html",
                                    "calotte view --plan --cell-width coast.geojson "

@@ -43,10 +43,12 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldCho
 /// The same for a file of fields without their mesh, such as a model's history, and a file of the
 /// mesh. In the file of fields, nCells is the dimension of the cells, or else the only dimension of
 /// their number.
+/// \param choices indices of the dimensions of fields, such as a time, for those that have them.
 /// \throws Error as above; parse for a file without such a dimension; invalid_argument for a mesh
-///         file that is a raster.
+///         file that is a raster, as find_indices(), and for a choice that belongs to no field.
 FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
-                          FieldChoice choice = FieldChoice::all);
+                          FieldChoice choice = FieldChoice::all,
+                          const std::vector<FieldIndex>& choices = {});
 
 /// The raster that "720x360" stands for, see lon_lat_boxes(); none for other texts.
 /// \throws Error invalid_argument for numbers out of range.

@@ -113,6 +113,12 @@ struct FieldDimension {
   bool unlimited = false; ///< in a file, such as the times of a model's history
 };
 
+/// The choice of one index of a dimension of fields, such as a time or a level; see find_indices().
+struct FieldIndex {
+  std::string dimension;  ///< its name, in any case, or a part of it that no other one has
+  std::int64_t index = 0; ///< from 0 on, or from the end: -1 is the last
+};
+
 /// Numbers for each cell, edge or vertex of a mesh, in its order.
 struct MeshField {
   std::string name;                              ///< of the variable

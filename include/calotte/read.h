@@ -224,14 +224,16 @@ struct CellField {
   std::string units;     ///< the variable's attribute, or empty
 };
 
-/// Reads a NetCDF variable whose last dimension has the size `cells`; any other dimensions have the
-/// size 1.
+/// Reads a NetCDF variable with a dimension of the size `cells`, the last of several.
 /// \param name name of the variable.
 /// \param cells number of columns of read_sites(): cells of MPAS and UGRID files, nodes of UGRID
 ///        triangles.
+/// \param choices indices of its other dimensions, see find_indices(); none where these have the
+///        size 1.
 /// \throws Error invalid_argument if the file has no such variable, naming the variables of that
-///         size; parse; file.
-CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells);
+///         size; as field_at(); for a variable with several numbers for a cell; parse; file.
+CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells,
+                          const std::vector<FieldIndex>& choices = {});
 
 /// The kilometres in a unit of length: 1 for km and 0.001 for m, by symbol or by name as UDUNITS
 /// spells them (km, kilometer, kilometres, m, meters, metre, ...); 1 for an empty text.

@@ -192,6 +192,36 @@ TEST_CASE("fields come back from files of rasters, and keep their dimensions") {
   CHECK_THROWS_AS(write_fields(in_folder(scratch, "raster.vtp"), raster, {field}), Error);
 }
 
+TEST_CASE("indices of dimensions choose one number for each cell") {
+  MeshField field{.name = "t", .dimensions = {{"Time", 2}, {"nVertLevels", 3}}, .leading = 1};
+  field.values = DoubleVector::LinSpaced(24, 0, 23); // 4 cells
+  const MeshField time = field_at(field, {{"time", 1}});
+  CHECK(time.values == (DoubleVector(12) << 3, 4, 5, 9, 10, 11, 15, 16, 17, 21, 22, 23).finished());
+  CHECK(time.dimensions.size() == 1);
+  CHECK(time.leading == 0);
+  const MeshField level = field_at(field, {{"lev", -1}});
+  CHECK(level.values == (DoubleVector(8) << 2, 5, 8, 11, 14, 17, 20, 23).finished());
+  CHECK(level.leading == 1);
+  CHECK(field_at(field, {{"LEVELS", 0}, {"Time", 1}}).values == Eigen::Vector4d(3, 9, 15, 21));
+  const Scratch scratch;
+  const std::string path = in_folder(scratch, "fields.nc"), mesh = in_folder(scratch, "mesh.nc");
+  const FieldGrid grid = written_grid(mesh, delaunay(fibonacci_sphere(100)));
+  field.values = DoubleVector::LinSpaced(600, 0, 599);
+  MeshField flat{.name = "flat", .values = DoubleVector::Ones(100)};
+  write_fields(path, grid, {field, flat});
+  const std::vector<FieldIndex> indices{{"time", 1}, {"lev", 2}};
+  const FieldGrid found = read_field_grid(path, mesh, FieldChoice::scalars, indices);
+  REQUIRE(found.fields.size() == 2);
+  CHECK(found.fields[0].values == field_at(field, indices).values);
+  CHECK(found.fields[0].values[7] == 7 * 6 + 5);
+  CHECK(found.fields[1].values == flat.values);
+  CHECK(read_cell_field(path, "t", 100, indices).values == found.fields[0].values);
+  CHECK(read_field_grid(path, mesh, FieldChoice::scalars, {{"Time", 0}}).fields.size() == 1);
+  CHECK_THROWS_AS(read_cell_field(path, "flat", 100, indices), Error);
+  CHECK_THROWS_AS(fields_at({flat}, indices), Error);
+  CHECK(fields_at({field, flat}, indices)[0].values == found.fields[0].values);
+}
+
 TEST_CASE("methods between meshes and rasters of the sphere") {
   const Scratch scratch;
   const FieldGrid mesh =

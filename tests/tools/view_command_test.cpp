@@ -390,7 +390,7 @@ TEST_CASE("bad input of view is one line") {
 nowhere/grid.vtp | 3 | cannot read nowhere/grid.vtp: No such file or directory
 grid.vtp --plan --cell-width 60km | 2 | --plan shows widths before there is a mesh; leave MESH out
 --plan | 2 | a density has no unit; give --cells N, or widths in km (--cell-width 60km)
---plan --cell-width 60km --field nope | 2 | --plan shows widths on the sphere; leave out --field, --history,
+--plan --cell-width 60km --field nope | 2 | --plan shows widths on the sphere; leave out --field, --mesh, --at,
 --plan --cell-width 60km --sphere-radius earth | 2 | widths in km refer to --earth-radius; give it in place of
 box.nc --most-cells 12 | 2 | --most-cells
 grid.vtp -o grid.vtp | 2 | grid.vtp is both input and output; give the output another name

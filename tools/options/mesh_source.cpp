@@ -8,10 +8,16 @@
 #include "options/sphere_radius_option.h"
 #include "text/text.h"
 
+#include <calotte/field_grid.h>
+
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 
 namespace calotte::tools {
 
@@ -45,18 +51,98 @@ std::string first_off_plane(const MeshFile& file) {
 
 } // namespace
 
-MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
+namespace {
+
+/// Checks that the mesh is on the surface that is asked for, and warns of an odd radius.
+void require_surface(const MeshSource& source, const MeshFile& file) {
+  const std::string& path = source.mesh_path();
+  if (source.plane && !file.plane())
+    refuse_path(path, "it holds no mesh of the plane{}; leave --plane out", first_off_plane(file));
+  if (!source.plane && source.points.empty() && is_netcdf(file))
+    warn_of_radius(file.sphere_radius, path);
+}
+
+/// The fields of a file without a mesh, on that of --mesh.
+MeshFile read_fields_of(const MeshSource& source, FieldChoice choice) {
+  FieldGrid grid = read_field_grid(source.path, source.mesh, choice, source.at);
+  MeshFile file = std::move(grid.mesh);
+  file.fields = std::move(grid.fields);
+  file.ignored = std::move(grid.ignored);
+  require_surface(source, file);
+  return file;
+}
+
+} // namespace
+
+MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice) {
   std::optional<Points3> points;
   if (!source.points.empty())
     points = source.plane ? read_planar_point_file(source.points).points
                           : read_point_file(source.points, source.lonlat).points;
-  MeshFile file = calotte::read_mesh_file(source.path, points ? &*points : nullptr, choice);
-  if (source.plane && !file.plane())
-    refuse_path(source.path, "it holds no mesh of the plane{}; leave --plane out",
-                first_off_plane(file));
-  if (!source.plane && source.points.empty() && is_netcdf(file))
-    warn_of_radius(file.sphere_radius, source.path);
+  MeshFile file = calotte::read_mesh_file(source.mesh_path(), points ? &*points : nullptr, choice);
+  require_surface(source, file);
   return file;
+}
+
+MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
+  if (choice == FieldChoice::none || (source.mesh.empty() && source.at.empty()))
+    return read_mesh_alone(source, choice);
+  if (!source.mesh.empty())
+    return read_fields_of(source, choice);
+  MeshFile file = read_mesh_alone(source, FieldChoice::all);
+  file.fields =
+      io_detail::named(source.path, [&] { return fields_at(std::move(file.fields), source.at); });
+  const auto has_several = [&](const MeshField& field) {
+    return choice == FieldChoice::scalars && field.count() > 1;
+  };
+  for (const MeshField& field : file.fields)
+    if (has_several(field))
+      file.ignored.push_back(field.name);
+  std::erase_if(file.fields, has_several);
+  return file;
+}
+
+std::string words_of(const std::vector<FieldIndex>& indices) {
+  std::string text;
+  for (const FieldIndex& index : indices)
+    text += message("{}{}={}", text.empty() ? "" : ", ", index.dimension, index.index);
+  return text;
+}
+
+namespace {
+
+/// The indices of "time=3,lev=0".
+std::vector<FieldIndex> parse_indices(const std::string& text) {
+  std::vector<FieldIndex> indices;
+  for (const std::string& part : split(text, ',')) {
+    const std::size_t equals = part.find('=');
+    std::int64_t index = 0;
+    const char* const end = part.data() + part.size();
+    const char* const begin = equals == std::string::npos ? end : part.data() + equals + 1;
+    const auto [last, error] = std::from_chars(begin, end, index);
+    if (equals == 0 || begin == end || error != std::errc() || last != end)
+      refuse(message("--at {}: {} is no index of a dimension; give NAME=INDEX, as in --at "
+                     "time=3,lev=0",
+                     text, part.empty() ? "\"\"" : part));
+    indices.push_back({part.substr(0, equals), index});
+  }
+  return indices;
+}
+
+} // namespace
+
+void add_fields_of(CLI::App& command, MeshSource& source) {
+  command
+      .add_option("--mesh", source.mesh,
+                  "Mesh of the fields in MESH, if that holds none, as a history")
+      ->type_name("FILE");
+  command
+      .add_option_function<std::string>(
+          "--at", [&source](const std::string& text) { source.at = parse_indices(text); },
+          "Indices of times and levels of fields, from 0 on: time=3,lev=0. "
+          "-1 is the last. A name may be a part of that of the dimension, in any case, such as lev "
+          "of nVertLevels")
+      ->type_name("NAME=INDEX,...");
 }
 
 std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,

@@ -9,15 +9,22 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace calotte::tools {
 
-/// The source of a mesh: the file, and the points that a .txt or .tri file refers to.
+/// The source of a mesh: the file, and the points that a .txt or .tri file refers to; and of its
+/// fields.
 struct MeshSource {
   std::string path = {};
   std::string points = {};
   bool lonlat = false;
-  bool plane = false; ///< a mesh of the plane
+  bool plane = false;              ///< a mesh of the plane
+  std::string mesh = {};           ///< of the fields at `path`, which holds none itself; or ""
+  std::vector<FieldIndex> at = {}; ///< of the dimensions of fields
+
+  /// The file that holds the mesh.
+  const std::string& mesh_path() const { return mesh.empty() ? path : mesh; }
 };
 
 /// The name of its file, without the folder.
@@ -29,9 +36,20 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
 /// Adds --plane. \returns the option.
 CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 
+/// Adds --mesh and --at, for commands that show fields.
+void add_fields_of(CLI::App& command, MeshSource& source);
+
+/// The mesh alone, and the fields of its own file.
 /// \throws Error as read_mesh_file and read_points do; invalid_argument, with --plane, for a mesh
 ///         of the sphere.
+MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice);
+
+/// The mesh and the fields of MESH, at the indices of --at.
+/// \throws Error as above, and as read_field_grid() and find_indices().
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
+
+/// "Time=3, lev=0": the indices of --at; "" without any.
+std::string words_of(const std::vector<FieldIndex>& indices);
 
 /// The radius of the sphere, km: that given in metres, that of the planet which a file is of, or
 /// the one to which widths in km refer; none if none of these is known.

@@ -85,7 +85,8 @@ std::string why_not(const MeshFile& file, const std::string& name) {
       return values_of(field, file).size() > 0        ? ""
              : field.location == FieldLocation::edges ? "it is a field at edges"
                                                       : "it does not have one number for each cell";
-  return "the file has no such field, or one with several numbers for each place";
+  return "the file has no such field, or one with several numbers for each cell, of which --at "
+         "chooses one";
 }
 
 void require_fields(const MeshFile& file, const ViewChoice& choice) {

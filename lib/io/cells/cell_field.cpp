@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/message.h"
 #include "io/bytes/file_error.h"
-#include "io/netcdf/cf_values.h"
+#include "io/cells/netcdf_fields.h"
 
 #include <calotte/read.h>
 
 #include <algorithm>
-#include <limits>
+#include <cstddef>
+#include <optional>
+#include <utility>
 
 namespace calotte {
 namespace {
 
-/// Whether a variable has exactly one value for each cell.
-bool is_cell_field(const io_detail::NetcdfReader& file, const std::string& name,
-                   std::int64_t cells) {
+/// The index of the dimension of the cells: the last one of their number.
+std::optional<std::size_t> find_cells(const io_detail::NetcdfReader& file, const std::string& name,
+                                      std::int64_t cells) {
   const std::vector<std::int64_t> shape = file.shape_of(name);
-  return !shape.empty() && shape.back() == cells &&
-         std::all_of(shape.begin(), shape.end() - 1, [](std::int64_t size) { return size == 1; });
+  const auto last = std::ranges::find(shape.rbegin(), shape.rend(), cells);
+  if (last == shape.rend() || std::ranges::find(shape, 0) != shape.end() || !file.is_numeric(name))
+    return std::nullopt;
+  return static_cast<std::size_t>(shape.rend() - last) - 1;
 }
 
 [[noreturn]] void refuse_field(const io_detail::NetcdfReader& file, const std::string& problem,
                                std::int64_t cells) {
   std::vector<std::string> names = file.variable_names();
-  std::erase_if(names, [&](const std::string& name) { return !is_cell_field(file, name, cells); });
+  std::erase_if(names, [&](const std::string& name) { return !find_cells(file, name, cells); });
   io_detail::refuse_path(file.path(), "{}; {}", problem,
                          names.empty() ? "the file has none: give another"
                                        : "there are " + base_detail::listed(names));
@@ -30,20 +34,18 @@ bool is_cell_field(const io_detail::NetcdfReader& file, const std::string& name,
 
 } // namespace
 
-CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells) {
+CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells,
+                          const std::vector<FieldIndex>& choices) {
   const io_detail::NetcdfReader file(path);
   if (!file.has_variable(name))
     refuse_field(file, base_detail::message("no variable {}", name), cells);
-  if (!is_cell_field(file, name, cells))
+  const std::optional<std::size_t> of_cells = find_cells(file, name, cells);
+  if (!of_cells)
     refuse_field(file,
                  base_detail::message("{} has not one value for each of {} cells", name, cells),
                  cells);
-  const std::vector<double> values = io_detail::cf_values(file, name, file.shape_of(name));
-  CellField field;
-  field.values = Eigen::Map<const DoubleVector>(values.data(), cells);
-  field.long_name = file.text(name, "long_name");
-  field.units = file.text(name, "units");
-  return field;
+  MeshField field = io_detail::read_field_at(file, name, *of_cells, choices);
+  return {std::move(field.values), std::move(field.long_name), std::move(field.units)};
 }
 
 } // namespace calotte

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/netcdf_fields.h"
+
+#include "base/message.h"
+#include "io/bytes/file_error.h"
+#include "io/cells/field_index.h"
 #include "io/netcdf/cf_values.h"
 
 #include <algorithm>
@@ -137,13 +141,23 @@ bool is_directed(const NetcdfReader& file, const std::string& name) {
 /// index of its other dimensions, in the order of the file, at each cell, edge or vertex.
 /// \param of_location indices of the dimensions of its location among those of the variable, the
 ///        slowest first.
+/// \param indices by dimension of the field; its values are those there, and it loses these
+///        dimensions.
 /// \pre name, location, dimensions and `leading` are set.
 void read_values(const NetcdfReader& file, const std::vector<std::size_t>& of_location,
-                 MeshField& field) {
-  const std::vector<std::int64_t> shape = file.shape_of(field.name);
+                 MeshField& field, std::vector<std::optional<std::int64_t>> indices = {}) {
+  std::vector<std::int64_t> shape = file.shape_of(field.name);
   field.long_name = file.text(field.name, "long_name");
   field.units = file.text(field.name, "units");
-  field.values = grouped_by_item(cf_values(file, field.name, shape), shape, of_location);
+  if (!indices.empty() && indices[0] && of_location.front() > 0) { // of its first dimension
+    const std::vector<double> row = cf_row(file, field.name, *indices[0]);
+    shape[0] = field.dimensions[0].size = 1;
+    indices[0] = 0;
+    field.values = grouped_by_item(row, shape, of_location);
+  } else {
+    field.values = grouped_by_item(cf_values(file, field.name, shape), shape, of_location);
+  }
+  field = field_at_indices(std::move(field), indices);
   field.integer =
       file.is_integer(field.name) && !is_packed(file, field.name) && fit_int(field.values);
   field.single = file.is_float(field.name) && !is_packed(file, field.name);
@@ -184,13 +198,42 @@ std::optional<MeshField> make_field_on(const NetcdfReader& file, const std::stri
   return field;
 }
 
+/// The numbers for each cell that are left at chosen indices.
+std::int64_t count_left(const MeshField& field,
+                        const std::vector<std::optional<std::int64_t>>& indices) {
+  std::int64_t left = 1;
+  for (std::size_t d = 0; d < indices.size(); ++d)
+    left *= indices[d] ? 1 : field.dimensions[d].size;
+  return left;
+}
+
+/// Adds dimensions whose names are new.
+void add_new(const std::vector<FieldDimension>& some, std::vector<FieldDimension>& all) {
+  for (const FieldDimension& dimension : some)
+    if (std::ranges::find(all, dimension.name, &FieldDimension::name) == all.end())
+      all.push_back(dimension);
+}
+
+/// Choices that lack: "Time=0,nVertLevels=0".
+std::string example(const MeshField& field,
+                    const std::vector<std::optional<std::int64_t>>& indices) {
+  std::string text;
+  for (std::size_t d = 0; d < indices.size(); ++d)
+    if (!indices[d] && field.dimensions[d].size > 1)
+      text += message("{}{}=0", text.empty() ? "" : ",", field.dimensions[d].name);
+  return text;
+}
+
 } // namespace
 
 void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
                     const std::set<std::string>& no_fields, FieldChoice choice,
-                    std::vector<MeshField>& fields, std::vector<std::string>& ignored) {
+                    std::vector<MeshField>& fields, std::vector<std::string>& ignored,
+                    const std::vector<FieldIndex>& choices) {
   if (choice == FieldChoice::none)
     return;
+  std::vector<FieldDimension> all; // of all fields
+  std::vector<FieldIndex> unused = choices;
   for (const std::string& name : file.variable_names()) {
     if (no_fields.contains(name))
       continue;
@@ -199,13 +242,41 @@ void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& di
                                  : std::nullopt;
     std::optional<MeshField> field =
         of_location ? make_field_on(file, name, *of_location) : std::nullopt;
-    if (!field || (choice == FieldChoice::scalars && field->count() > 1)) {
+    const auto indices = field ? find_indices(field->dimensions, choices)
+                               : std::vector<std::optional<std::int64_t>>();
+    if (field) {
+      add_new(field->dimensions, all);
+      std::erase_if(unused,
+                    [&](const FieldIndex& index) { return belongs(index, field->dimensions); });
+    }
+    if (!field || (choice == FieldChoice::scalars && count_left(*field, indices) > 1)) {
       ignored.push_back(name);
       continue;
     }
-    read_values(file, *of_location, *field);
+    read_values(file, *of_location, *field, indices);
     fields.push_back(*std::move(field));
   }
+  if (!unused.empty())
+    refuse_path(file.path(), "no field has a dimension {}; {}", unused.front().dimension,
+                all.empty() ? "leave it out" : "there are " + in_words(all));
+}
+
+MeshField read_field_at(const NetcdfReader& file, const std::string& name, std::size_t of_cells,
+                        const std::vector<FieldIndex>& choices) {
+  std::optional<MeshField> field = make_field_on(file, name, {of_cells});
+  if (!field)
+    file.fail("{} has a dimension of the size 0; give a file with records", name);
+  for (const FieldIndex& index : choices)
+    if (!belongs(index, field->dimensions))
+      refuse_path(file.path(), "{} has no dimension {}; {}", name, index.dimension,
+                  field->dimensions.empty() ? "it has one number for each cell"
+                                            : "it has " + in_words(field->dimensions));
+  const auto indices = find_indices(field->dimensions, choices);
+  if (count_left(*field, indices) > 1)
+    refuse_path(file.path(), "{} has several numbers for each cell: {}; choose one by --at {}",
+                name, in_words(field->dimensions), example(*field, indices));
+  read_values(file, {of_cells}, *field, indices);
+  return *std::move(field);
 }
 
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,

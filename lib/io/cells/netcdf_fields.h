@@ -5,6 +5,7 @@
 #include "io/cells/room.h"
 #include "io/netcdf/netcdf_reader.h"
 
+#include <cstddef>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,9 +35,20 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
 /// over these dimensions, the last one fastest. Other dimensions may be in any position.
 /// \param no_fields variables that are neither read nor listed.
 /// \param ignored receives the names of the other variables.
-/// \throws Error parse, file.
+/// \param indices choices for those fields that have such a dimension; of the first dimension of a
+///        variable only that index is read.
+/// \throws Error parse, file; invalid_argument as find_indices(), and for a choice that belongs to
+///         no field.
 void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
                     const std::set<std::string>& no_fields, FieldChoice choice,
-                    std::vector<MeshField>& fields, std::vector<std::string>& ignored);
+                    std::vector<MeshField>& fields, std::vector<std::string>& ignored,
+                    const std::vector<FieldIndex>& indices = {});
+
+/// Reads a variable as a field of cells at chosen indices.
+/// \param of_cells the index of the dimension of the cells among those of the variable.
+/// \throws Error parse, file; invalid_argument as field_at(), and unless one number is left for
+///         each cell.
+MeshField read_field_at(const NetcdfReader& file, const std::string& name, std::size_t of_cells,
+                        const std::vector<FieldIndex>& indices);
 
 } // namespace calotte::io_detail

@@ -246,8 +246,8 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
   return grid;
 }
 
-FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
-                          FieldChoice choice) {
+FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path, FieldChoice choice,
+                          const std::vector<FieldIndex>& choices) {
   using namespace io_detail;
   FieldGrid grid = read_field_grid(mesh_path, FieldChoice::none);
   require(!grid.boxes, "{} is a raster, whose fields are in its own file; give that alone",
@@ -257,9 +257,8 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
   for (const std::string& name : file.variable_names())
     if (is_coordinate(file, name))
       coordinates.insert(name);
-  grid.ignored.assign(coordinates.begin(), coordinates.end());
   read_fields_on(file, {find_cell_dimension(file, grid)}, coordinates, choice, grid.fields,
-                 grid.ignored);
+                 grid.ignored, choices);
   grid.name = path;
   apply_mask(grid);
   require_records(path, grid, choice);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
@@ -83,14 +84,26 @@ Meaning read_meaning(const NetcdfReader& file, const std::string& variable) {
   return out;
 }
 
+std::vector<double> interpreted(const NetcdfReader& file, const std::string& variable,
+                                std::vector<double> stored) {
+  const Meaning meaning = read_meaning(file, variable);
+  std::transform(stored.begin(), stored.end(), stored.begin(), meaning);
+  return stored;
+}
+
 } // namespace
 
 std::vector<double> cf_values(const NetcdfReader& file, const std::string& variable,
                               const std::vector<std::int64_t>& shape) {
-  std::vector<double> values = file.doubles(variable, shape);
-  const Meaning meaning = read_meaning(file, variable);
-  std::transform(values.begin(), values.end(), values.begin(), meaning);
-  return values;
+  return interpreted(file, variable, file.doubles(variable, shape));
+}
+
+std::vector<double> cf_row(const NetcdfReader& file, const std::string& variable,
+                           std::int64_t row) {
+  const std::size_t rank = file.shape_of(variable).size();
+  std::vector<double> values(static_cast<std::size_t>(file.product(file.find(variable), 1, rank)));
+  file.rows(variable, row, 1, values.data());
+  return interpreted(file, variable, std::move(values));
 }
 
 bool is_packed(const NetcdfReader& file, const std::string& variable) {
