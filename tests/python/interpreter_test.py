@@ -22,3 +22,17 @@ def test_a_missing_wheel_is_named_with_the_interpreter(tmp_path):
         assert result.stderr.strip().split("\n")[-1].startswith(
             f"calotte: {sys.executable} lacks the package wheel; ")
         assert "invalid command" not in result.stderr
+
+
+def test_a_missing_compiler_is_told_before_any_work(tmp_path):
+    for programs, text in (([], "there is no cmake"), (["cmake"], "there is no C++ compiler")):
+        folder = tmp_path / "bin"
+        folder.mkdir(exist_ok=True)
+        for program in programs:
+            (folder / program).write_text("#!/bin/sh\n")
+            (folder / program).chmod(0o755)
+        result = subprocess.run([sys.executable, SETUP, "build_ext", "--build-temp", tmp_path / "b", "--build-lib", tmp_path],
+                                capture_output=True, text=True, cwd=tmp_path, env={"PATH": str(folder)})
+        last = result.stderr.strip().split("\n")[-1]
+        assert result.returncode != 0 and last.startswith(f"calotte: {text}, and the package is compiled; on Debian 12")
+    assert not (tmp_path / "b").exists()

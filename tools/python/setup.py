@@ -3,8 +3,9 @@
 
 The library is, in this order: the one that is installed in CALOTTE_PREFIX; in a clone, the one that
 tools/quickstart built in build/release; one of the same version where CMake looks for packages; or
-else it is built from its sources, which takes minutes of all cores.
+else it is built from its sources, which takes minutes of all cores: the first line says so.
 """
+import contextlib
 import importlib
 import os
 import pathlib
@@ -23,6 +24,8 @@ LIBRARY = BUNDLED if BUNDLED.is_dir() else HERE.parents[1]
 PARTS = ["CMakeLists.txt", "README.md", "cmake", "include", "lib", "tools/draw/draw.h",
          "tools/draw/coastlines.h", "tools/draw/coastlines.cpp"]  # of the library, for one
 BUILT = LIBRARY / "build/release"  # by tools/quickstart
+SECONDS = {"package": 85, "library": 880}  # of one processor, in 2026
+REMEDY = "on Debian 12 tools/setup --python of the source tree installs what a build needs"
 
 
 def version():
@@ -62,10 +65,42 @@ def built_library(folder):
     return folder
 
 
+def tell(text):
+    """Says it in the output of the build, which pip shows after a failure and with --verbose, and on the terminal."""
+    print(f"calotte: {text}", file=sys.stderr, flush=True)
+    with contextlib.suppress(OSError), open("/dev/tty", "w", encoding="utf-8") as terminal:
+        terminal.write(f"\ncalotte: {text}\n")
+
+
+def minutes(seconds, jobs):
+    return f"about {max(1, round(seconds / jobs / 60))} min on {jobs} processors"
+
+
+def announce(jobs):
+    """What the build compiles, and how long that takes."""
+    if os.environ.get("CALOTTE_PREFIX") or (BUILT / "libcalotte.a").is_file():
+        tell(f"compiles the package, {minutes(SECONDS['package'], jobs)}")
+    else:
+        tell(f"compiles the package and, unless CMake finds it installed, the library in C++, "
+             f"{minutes(sum(SECONDS.values()), jobs)}; a wheel needs no compiler (tools/package --wheel)")
+
+
+def require_programs():
+    """Fails before any work where the build has no compiler or no CMake."""
+    compilers = [os.environ.get("CXX", "").split(" ")[0], "c++", "g++", "clang++"]
+    for program, found in (("cmake", shutil.which("cmake")),
+                           ("C++ compiler", any(shutil.which(name) for name in compilers if name))):
+        if not found:
+            sys.exit(f"calotte: there is no {program}, and the package is compiled; {REMEDY}")
+
+
 class CMakeBuild(build_ext):
     """One extension, made by CMakeLists.txt."""
 
     def build_extension(self, extension):
+        jobs = self.parallel or os.cpu_count() or 1
+        require_programs()
+        announce(jobs)
         module = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve()
         kept = os.environ.get("CALOTTE_BUILD")
         build = pathlib.Path(kept or self.build_temp).resolve()
@@ -83,9 +118,10 @@ class CMakeBuild(build_ext):
         if shutil.which("ninja"):
             settings.append("-GNinja")
         fresh = [] if kept else ["--fresh"]
-        subprocess.run(["cmake", *fresh, "-S", HERE, "-B", build, *settings], check=True)
-        jobs = self.parallel or os.cpu_count() or 1
-        subprocess.run(["cmake", "--build", build, "--parallel", str(jobs)], check=True)
+        if subprocess.run(["cmake", *fresh, "-S", HERE, "-B", build, *settings]).returncode != 0:
+            sys.exit(f"calotte: CMake does not find what the lines above name; {REMEDY}")
+        if subprocess.run(["cmake", "--build", build, "--parallel", str(jobs)]).returncode != 0:
+            sys.exit("calotte: the package does not compile; the first error is above, after the line FAILED")
 
 
 class SourceDistribution(sdist):
