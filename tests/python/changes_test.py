@@ -247,6 +247,6 @@ def test_other_grids(tmp_path):
         calotte.refine(channel.cells, 0.05)
     with pytest.raises(calotte.Error, match="the mesh is str; give a Mesh"):
         calotte.refine("base.nc", 0.05)
-    plane = calotte.delaunay(np.random.default_rng(1).random((300, 2)))
+    plane = calotte.delaunay(np.random.default_rng(1).random((300, 2)), calotte.plane())
     with pytest.raises(calotte.Error, match="of a plane: rectangle"):
         calotte.refine(plane, region=SPOT, factor=2)

@@ -45,16 +45,17 @@ def test_points():
 def test_longitudes_and_latitudes():
     places = np.stack([np.linspace(-180, 180, 200), np.linspace(-90, 90, 200)], axis=1)
     places[5, 1] = 91
-    error = refuses("point 5", calotte.delaunay, places, calotte.Surface())
+    error = refuses("point 5", calotte.delaunay, places)
     assert error.index == 5
     places[5, 1] = 80
     mesh, same = calotte.delaunay(places, "circle=0,0,90deg"), calotte.from_lonlat(*places.T)
     assert (mesh.points == same).all() and mesh.surface.is_bounded
-    assert not calotte.delaunay(places).surface.is_sphere
+    assert calotte.delaunay(places).surface.is_sphere
+    assert not calotte.delaunay(places, calotte.plane()).surface.is_sphere
     rng = np.random.default_rng(1)
     radians = np.stack([rng.uniform(-np.pi, np.pi, 300), rng.uniform(-1.5, 1.5, 300)], axis=1)
     with pytest.warns(UserWarning, match="not radians"):
-        calotte.delaunay(radians, calotte.Surface())
+        calotte.delaunay(radians)
 
 
 def test_functions_of_the_user():
@@ -98,7 +99,7 @@ def test_options():
     refuses("", calotte.cvt, 100, tolerance=-1.0)
     refuses("", calotte.cvt, 100, tolerance=0.0)
     refuses("there is no number of cells; give one", calotte.cvt)
-    refuses("give surface=", calotte.quality, calotte.delaunay(np.eye(3)[:, :2]))
+    refuses("give surface=", calotte.quality, calotte.delaunay(np.eye(3)[:, :2], calotte.plane()))
     refuses("1 or more", calotte.threads(0).__enter__)
     refuses("", calotte.polygon, [(0, 0), (10, 0), (0, 10), (10, 10)])
     refuses("no format", calotte.write, "x.nc", calotte.delaunay(calotte.random_points(9)),

@@ -40,11 +40,11 @@ def test_a_triangulation_is_that_of_the_command(tmp_path):
 
 
 @pytest.mark.parametrize("words, arguments", [
-    (["--cells", "642"], {"start": 642}),
+    (["--cells", "642"], {"cells": 642}),
     (["--cells", "1000", "--density", "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"],
-     {"start": 1000, "density": "x8"}),
+     {"cells": 1000, "density": "x8"}),
     (["--cells", "300", "--region", "circle=-105,40,1000km"],
-     {"start": 300, "surface": calotte.circle((-105, 40), math.degrees(1000 / 6371))}),
+     {"cells": 300, "surface": calotte.circle((-105, 40), math.degrees(1000 / 6371))}),
 ])
 def test_a_grid_has_the_bits_of_the_command(tmp_path, words, arguments):
     run("cvt", *words, "-o", tmp_path / "grid.vtp")
@@ -188,7 +188,7 @@ def test_topology_is_what_uxarray_takes():
 def test_a_mesh_shows_itself():
     for mesh in (calotte.delaunay(calotte.random_points(100)),
                  calotte.delaunay(calotte.random_points(20000)),
-                 calotte.delaunay(calotte.random_points(100)[:, :2])):
+                 calotte.delaunay(calotte.random_points(100)[:, :2], calotte.plane())):
         html = mesh._repr_html_()
         assert html.count("M") > 50 and len(html) < 150_000 and "nan" not in html
         assert f"{len(mesh)} sites" in repr(mesh)

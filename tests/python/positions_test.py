@@ -35,7 +35,7 @@ def test_on_the_sphere():
 
 
 def test_outside_of_an_open_mesh():
-    mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)], calotte.Surface())
+    mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)])
     found = calotte.locate(mesh, [(0, -90), (10, 80)])
     assert found.triangle[0] == -1 and found.triangle[1] >= 0
     assert np.isnan(found.weights[0]).all() and np.isfinite(found.weights[1]).all()
@@ -46,7 +46,7 @@ def test_outside_of_an_open_mesh():
 
 
 def test_in_the_plane():
-    mesh = calotte.delaunay(RNG.random((300, 2)))
+    mesh = calotte.delaunay(RNG.random((300, 2)), calotte.plane())
     positions = 0.2 + 0.6 * RNG.random((1000, 2))
     found = calotte.locate(mesh, positions)
     corners = mesh.points[mesh.triangles[found.triangle]]
@@ -71,7 +71,7 @@ def test_in_a_periodic_box():
 
 def test_errors():
     mesh = calotte.delaunay(calotte.random_points(50))
-    plane = calotte.delaunay(RNG.random((50, 2)))
+    plane = calotte.delaunay(RNG.random((50, 2)), calotte.plane())
     positions = calotte.random_points(10)
     positions[4, 0] = np.nan
     for call in (lambda p: calotte.locate(mesh, p),
@@ -89,7 +89,7 @@ def test_errors():
             call(np.eye(4))
     with pytest.raises(calotte.Error, match="n x 2 for a surface in the plane"):
         calotte.locate(plane, np.eye(3))
-    with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or a row of them, for "
+    with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or an array of them, for "
                                             "each of the 50 cells"):
         calotte.interpolate(mesh, np.ones(3), np.eye(3))
     with pytest.raises(calotte.Error, match="must be numbers"):

@@ -36,22 +36,22 @@ FIXED = [(1, 0, 0), (0, 1, 0), (0, 0.6, 0.8)]
 BOX = calotte.periodic_box(2, 1)
 
 REQUESTS = {
-    "uniform": {"start": 642},
-    "x8": {"start": 2562, "density": density},
+    "uniform": {"cells": 642},
+    "x8": {"cells": 2562, "density": density},
     "widths": {"cell_width": WIDTHS},
     "rules": {"cell_width": widths.minimum(
         widths.by_latitude([(-90, 900), (0, 700), (90, 900)]),
         widths.by_distance([(10, -20), (40, 30)], near=300, far=900, over=4000)).limit_gradient(0.1)},
-    "region": {"start": 500, "surface": calotte.polygon(REGION)},
+    "region": {"cells": 500, "surface": calotte.polygon(REGION)},
     "limited-area": {"cell_width": 200, "surface": calotte.polygon(SMALL), "limited_area": True},
-    "plane": {"start": 300, "surface": calotte.rectangle((0, 0), (2, 1))},
-    "box": {"start": 400, "surface": BOX},
-    "walls": {"start": 300, "surface": BOX, "walls": "y"},
-    "fixed": {"start": 500, "fixed": FIXED},
-    "points": {"start": start()},
-    "pure": {"start": 642, "density": density, "well_centred": False, "tolerance": 1e-3},
-    "well-centred": {"start": 642, "well_centred": True},
-    "lloyd": {"start": 642, "density": density, "method": "lloyd", "iterations": 20},
+    "plane": {"cells": 300, "surface": calotte.rectangle((0, 0), (2, 1))},
+    "box": {"cells": 400, "surface": BOX},
+    "walls": {"cells": 300, "surface": BOX, "walls": "y"},
+    "fixed": {"cells": 500, "fixed": FIXED},
+    "points": {"points": start()},
+    "pure": {"cells": 642, "density": density, "well_centred": False, "tolerance": 1e-3},
+    "well-centred": {"cells": 642, "well_centred": True},
+    "lloyd": {"cells": 642, "density": density, "method": "lloyd", "iterations": 20},
 }
 
 

@@ -31,20 +31,20 @@ def refuses(text, call, *arguments, **words):
 
 @pytest.mark.parametrize("words, arguments", [
     (["--cells", 162, "--start", "icosahedron", "--bisections", 1],
-     {"start": 162, "kind": "icosahedron", "bisections": 1}),
-    (["--cells", 300, "--start", "geodesic"], {"start": 300, "kind": "geodesic"}),
+     {"cells": 162, "start": "icosahedron", "bisections": 1}),
+    (["--cells", 300, "--start", "geodesic"], {"cells": 300, "start": "geodesic"}),
     (["--cells", 300, "--start", "random", "--seed", 7, "--iterations", 5],
-     {"start": 300, "kind": "random", "seed": 7, "iterations": 5}),
+     {"cells": 300, "start": "random", "seed": 7, "iterations": 5}),
     (["--cells", 300, "--start", "fibonacci", "--method", "lloyd", "--iterations", 5],
-     {"start": 300, "kind": "fibonacci", "method": "lloyd", "iterations": 5}),
+     {"cells": 300, "start": "fibonacci", "method": "lloyd", "iterations": 5}),
     (["--cells", 300, "--start", "density", "--density", "x4", "--norm", "linf",
       "--tolerance", 1e-3],
-     {"start": 300, "kind": "density", "density": "x4", "norm": "linf", "tolerance": 1e-3}),
+     {"cells": 300, "start": "density", "density": "x4", "norm": "linf", "tolerance": 1e-3}),
     (["--cells", 300, "--density", "x4", "--insertion-rounds", 2],
-     {"start": 300, "density": "x4", "insertion_rounds": 2}),
-    (["--cells", 300, "--stop", "well-centred"], {"start": 300, "well_centred": True}),
+     {"cells": 300, "density": "x4", "insertion_rounds": 2}),
+    (["--cells", 300, "--stop", "well-centred"], {"cells": 300, "well_centred": True}),
     (["--cells", 200, "--region", "circle=-105,40,1000km", "--boundary", "generators"],
-     {"start": 200, "surface": "circle=-105,40,1000km", "boundary": "generators"}),
+     {"cells": 200, "surface": "circle=-105,40,1000km", "boundary": "generators"}),
 ])
 def test_on_the_sphere(tmp_path, words, arguments):
     run("cvt", *words, "-o", tmp_path / "a.vtp")
@@ -73,7 +73,7 @@ def test_widths_of_a_plane(tmp_path):
         grid = calotte.cvt(cell_width=given, surface=RECTANGLE)
         assert (grid.mesh.points == expected).all() and grid.well_centred
     plan = calotte.plan(raster, surface=RECTANGLE)
-    assert plan.cells == len(expected) and plan.kind == "multilevel" and plan.gradient is None
+    assert plan.cells == len(expected) and plan.start == "multilevel" and plan.gradient is None
     assert plan.widths == (raster[0].min(), raster[0].max())
     quality = calotte.quality(grid.mesh, cell_width=raster)
     assert quality.dc_over_h.p50 == pytest.approx(1, abs=0.05)
@@ -93,7 +93,7 @@ def test_a_width_of_a_plane(tmp_path):
 
 
 def test_a_hexagonal_lattice():
-    grid = calotte.cvt(200, surface=RECTANGLE, kind="hexagonal", max_iterations=0)
+    grid = calotte.cvt(200, surface=RECTANGLE, start="hexagonal", max_iterations=0)
     assert len(grid.mesh) == len(calotte.hexagonal_lattice(200, RECTANGLE))
 
 
@@ -144,17 +144,17 @@ def test_a_limited_area_with_fixed_points(tmp_path):
 # ---- The plan
 
 def test_a_plan_is_what_runs():
-    for words in ({"start": 642}, {"start": 2562, "density": "x8"},
-                  {"start": 400, "surface": BOX}, {"start": 300, "kind": "random"},
-                  {"start": 200, "surface": "circle=0,0,20deg"},
-                  {"start": 642, "kind": "icosahedron", "bisections": 2, "iterations": 3}):
+    for words in ({"cells": 642}, {"cells": 2562, "density": "x8"},
+                  {"cells": 400, "surface": BOX}, {"cells": 300, "start": "random"},
+                  {"cells": 200, "surface": "circle=0,0,20deg"},
+                  {"cells": 642, "start": "icosahedron", "bisections": 2, "iterations": 3}):
         plan, grid = calotte.plan(**words), calotte.cvt(**words)
         assert [(a.kind, a.cells, a.times, a.tolerance) for a in plan.actions] == [
             (a.kind, a.cells, a.times, a.tolerance) for a in grid.actions]
         assert plan.cells == len(grid.mesh) == plan.actions[-1].cells
         assert sum(a.iterations for a in grid.actions) == grid.iterations
         assert plan.widths is None and np.isnan(plan.least_km)
-    assert calotte.plan(start=calotte.random_points(50)).kind == "points"
+    assert calotte.plan(points=calotte.random_points(50)).start == "points"
     plan = calotte.plan(200.0, surface="circle=0,0,20deg", limited_area=True)
     assert plan.cells > calotte.plan(200.0, surface="circle=0,0,20deg").cells
     assert (plan.least_km, plan.greatest_km, plan.widths) == (200, 200, (200, 200))
@@ -163,14 +163,14 @@ def test_a_plan_is_what_runs():
 # ---- Errors
 
 def test_words():
-    refuses("no kind of start cube; give one of: automatic, points", calotte.cvt, 100, kind="cube")
+    refuses("no start cube; give one of: automatic, points", calotte.cvt, 100, start="cube")
     refuses("no method newton; give one of: auto, lloyd", calotte.cvt, 100, method="newton")
     refuses("no boundary open; give one of: clip, generators", calotte.cvt, 100, boundary="open")
     refuses("no rule for duplicates keep", calotte.cvt, 100, duplicates="keep")
     refuses("no walls z", calotte.cvt, 100, surface=BOX, walls="z")
     for words in ({"start_kind": "random"}, {"region": "circle=0,0,20deg"}, {"domain": BOX}):
         with pytest.raises(TypeError, match="unexpected keyword argument"):
-            calotte.plan(start=100, **words)
+            calotte.plan(cells=100, **words)
         with pytest.raises(TypeError, match="unexpected keyword argument"):
             calotte.cvt(100, **words)
 
@@ -178,19 +178,19 @@ def test_words():
 def test_what_does_not_fit():
     points = calotte.random_points(50)
     refuses("norm none", calotte.cvt, 100, norm="none")
-    refuses("sphere only", calotte.cvt, 100, surface=BOX, kind="geodesic")
-    refuses("plane only", calotte.cvt, 100, kind="hexagonal")
-    refuses("the start has points", calotte.cvt, points, kind="random")
-    refuses("the start has no points", calotte.cvt, np.empty((0, 3)))
+    refuses("sphere only", calotte.cvt, 100, surface=BOX, start="geodesic")
+    refuses("plane only", calotte.cvt, 100, start="hexagonal")
+    refuses("the start has points", calotte.cvt, points=points, start="random")
+    refuses("the start has no points", calotte.cvt, points=np.empty((0, 3)))
     refuses("the number of cells is 0", calotte.cvt, 0, cell_width=500.0)
-    refuses("chooses the bisections", calotte.cvt, 100, kind="multilevel", bisections=1)
+    refuses("chooses the bisections", calotte.cvt, 100, start="multilevel", bisections=1)
     refuses("multilevel only", calotte.cvt, 642, insertion_rounds=1)
     refuses("1 or more", calotte.cvt, 642, iterations=0)
     refuses("limited area", calotte.cvt, cell_width=200.0, limited_area=True)
     refuses("a bounded surface only", calotte.cvt, 100, boundary="generators")
     refuses("periodic box", calotte.cvt, 100, surface=RECTANGLE, walls="y")
     refuses("no period", calotte.cvt, 100, surface=BOX, walls="xy")
-    assert refuses("", calotte.cvt, points[[0, *range(50)]], duplicates="refuse").index == 1
+    assert refuses("", calotte.cvt, points=points[[0, *range(50)]], duplicates="refuse").index == 1
     assert refuses("fixed point 99", calotte.cvt, 100, fixed=calotte.random_points(100)).index == 99
 
 

@@ -12,7 +12,7 @@ CAP = calotte.circle((-105, 40), 20)
 BASIN = calotte.planar_polygon([(0, 0), (4, 0), (4, 2), (0, 2)],
                                [(1, 0.7), (1.8, 0.7), (1.8, 1.3), (1, 1.3), (1, 0.7)])
 BOX = calotte.periodic_box(2, 1)
-PLANE = calotte.delaunay([(0, 0), (1, 0), (0, 1), (3, 2)]).surface
+PLANE = calotte.plane()
 
 
 @pytest.mark.parametrize("surface, line, area, corners", [
@@ -46,7 +46,7 @@ def test_what_surfaces_contain():
 
 
 def test_a_surface_of_the_other_kind():
-    mesh, flat = calotte.delaunay(calotte.random_points(20)), calotte.delaunay(np.eye(3, 2))
+    mesh, flat = calotte.delaunay(calotte.random_points(20)), calotte.delaunay(np.eye(3, 2), calotte.plane())
     box = calotte.delaunay(calotte.random_points(200, BOX), BOX)
     for text, call in (
             (r"surface is 7; give one of the sphere: .*, or of a plane: ",
@@ -98,7 +98,7 @@ def test_a_surface_of_a_file(tmp_path):
     for file in (tmp_path / "basin.txt", str(tmp_path / "basin.geojson")):
         surface = calotte.planar_polygon(file)
         assert surface.area == whole.area and not surface.is_sphere
-        mesh = calotte.delaunay(calotte.random_points(300, whole))
+        mesh = calotte.delaunay(calotte.random_points(300, whole), calotte.plane())
         assert calotte.voronoi(mesh, file).cell_area.sum() == pytest.approx(8)
         assert len(calotte.hexagonal_lattice(100, file)) == len(calotte.hexagonal_lattice(100, whole))
     on_sphere = calotte.random_points(9, tmp_path / "basin.geojson")
@@ -112,7 +112,7 @@ def test_a_surface_of_a_file(tmp_path):
 
 def test_a_surface_bounds_a_mesh_that_has_no_end():
     points = calotte.random_points(300, BASIN)
-    mesh = calotte.delaunay(points)
+    mesh = calotte.delaunay(points, PLANE)
     assert calotte.voronoi(mesh, BASIN).cell_area.sum() == pytest.approx(BASIN.area)
     assert calotte.quality(mesh, surface=BASIN).cells == 300
     assert mesh.surface == PLANE

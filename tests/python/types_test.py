@@ -20,8 +20,8 @@ total: float = float(cells.cell_area.sum())
 mesh = calotte.delaunay([(0.0, 0.0, 1.0)] * 4, regions=2)
 area: float = mesh.surface.widened(0.1).area
 passed: bool = calotte.check(mesh).passed
-channel = calotte.cvt(cell_width=0.1, surface=calotte.periodic_box(2, 1), walls="y", kind="random")
-actions: int = len(calotte.plan(start=162, iterations=3).actions)
+channel = calotte.cvt(cell_width=0.1, surface=calotte.periodic_box(2, 1), walls="y", start="random")
+actions: int = len(calotte.plan(cells=162, iterations=3).actions)
 nearest: int = int(calotte.locate(mesh, [(0.0, 90.0)]).nearest[0])
 finer = calotte.refine(grid.mesh, region="circle=10,50,1000km", factor=2, nearest="kind")
 added: int = finer.patches[0].added + len(finer.mesh) + int(finer.new_of_old[0])

@@ -31,7 +31,7 @@ def test_steep_widths_are_told():
 
 
 def test_a_run_that_does_not_converge_is_told():
-    grid, texts = said(lambda: calotte.cvt(642, method="lloyd", max_iterations=3, tolerance=1e-12, kind="random"))
+    grid, texts = said(lambda: calotte.cvt(642, method="lloyd", max_iterations=3, tolerance=1e-12, start="random"))
     assert not grid.converged and texts == ["not converged; increase max_iterations or the tolerance"]
     assert said(lambda: calotte.cvt(642, iterations=3))[1] == []
 

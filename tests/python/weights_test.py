@@ -125,5 +125,5 @@ def test_errors(mesh):
     assert caught.value.index == 1
     with pytest.raises(calotte.Error, match="not between two grids"):
         calotte.interpolation_weights(mesh, [(0, 0)]).write("never.nc")
-    with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or a row of them, for each of the 800"):
+    with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or an array of them, for each of the 800"):
         calotte.interpolate(mesh, np.ones(3), boxes)

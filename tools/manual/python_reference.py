@@ -15,18 +15,18 @@ from calotte import _calotte, _functions, widths
 
 GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "operator_errors",
-                                  "locate", "interpolate", "threads"]),
+                                  "neighbours", "locate", "interpolate", "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
     ("Grids", ["cvt", "plan", "refine", "coarsen", "limited_area", "density"]),
     ("Points", ["random_points", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",
                 "bisected_icosahedron", "lat_lon_sphere", "cubed_sphere", "hexagonal_lattice",
                 "bisect", "from_lonlat", "to_lonlat"]),
-    ("Surfaces", ["circle", "ellipse", "box", "channel", "polygon", "rectangle", "periodic_box",
+    ("Surfaces", ["circle", "ellipse", "box", "channel", "polygon", "rectangle", "plane", "periodic_box",
                   "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
 WIDTHS = ["by_latitude", "by_distance", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
-KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
+KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
          "Unit", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Widths", "Error"]
 
 

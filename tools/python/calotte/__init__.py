@@ -2,7 +2,7 @@
 """Delaunay triangulations and centroidal Voronoi tessellations of the sphere and the plane.
 
 Points are n x 3 directions, or n x 2 longitudes and latitudes in degrees; in a plane n x 2, in any
-unit. A Surface tells where points live; without one, delaunay() takes n x 2 for points of a plane.
+unit. A Surface tells where points live; without one they live on the sphere.
 Lengths on the sphere are radians and areas steradians, of the unit sphere; cell widths are km.
 Results have the same bits for any number of threads. Functions raise calotte.Error, a ValueError.
 
@@ -16,27 +16,29 @@ calotte.scipy, calotte.stripy and calotte.mpas_tools replace classes and functio
 import importlib
 
 from . import _display, _mesh, widths  # add the methods that are written in Python
-from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
-                       Quality, Raster, Surface, Unit, Voronoi, Widths, __version__)
+from ._calotte import (CellWidth, Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors,
+                       Polygons, Quality, Raster, Surface, Unit, Voronoi, Widths, __version__)
 from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Plan, Weights, bisect,
                          bisected_icosahedron, box, channel, check, circle, coarsen, cubed_sphere,
                          cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
                          from_lonlat, geodesic_sphere, hexagonal_lattice, interpolate,
                          interpolation_weights, lat_lon_sphere, limited_area, locate,
-                         operator_errors, partition, periodic_box, plan, planar_polygon, polygon,
+                         neighbours, operator_errors, partition, periodic_box, plan, planar_polygon,
+                         plane, polygon,
                          quality, random_points, raster, read, read_fields, read_points,
                          read_weights, rectangle, refine, spiral_sphere, threads, to_lonlat,
                          voronoi, write)
 
 __all__ = [
     "Action", "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "Cvt", "Density", "Error",
-    "Locations", "Mesh", "OperatorErrors", "Plan", "Polygons", "Quality", "Raster", "Surface",
+    "IdLists", "Locations", "Mesh", "OperatorErrors", "Plan", "Polygons", "Quality", "Raster", "Surface",
     "Unit", "Voronoi", "Weights", "Widths", "__version__", "bisect", "bisected_icosahedron", "box",
     "channel",
     "check", "circle", "coarsen", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "density",
     "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere", "hexagonal_lattice",
     "interpolate", "interpolation_weights", "lat_lon_sphere", "limited_area", "locate",
-    "operator_errors", "partition", "periodic_box", "plan", "planar_polygon", "polygon", "quality",
+    "neighbours", "operator_errors", "partition", "periodic_box", "plan", "planar_polygon", "plane",
+    "polygon", "quality",
     "random_points", "raster", "read", "read_fields", "read_points", "read_weights", "rectangle",
     "refine", "spiral_sphere", "threads", "to_lonlat", "voronoi", "widths", "write",
 ]

@@ -7,7 +7,7 @@ import warnings
 
 import numpy as np
 
-from . import _calotte
+from . import _calotte, _labels
 from ._calotte import Error
 
 EARTH_RADIUS_KM = 6371.0
@@ -34,7 +34,8 @@ def sphere_points(points, what="points"):
     longitudes, latitudes = np.abs(array[:, 0]), np.abs(array[:, 1])
     if len(array) > 100 and longitudes.max() <= 2 * math.pi and latitudes.max() <= math.pi / 2:
         warnings.warn(f"all {what} are within 6.3 degrees of each other; longitudes and latitudes "
-                      "are taken as degrees, not radians", stacklevel=3)
+                      "are taken as degrees, not radians, and x and y of a plane need surface=, such as plane()",
+                      stacklevel=3)
     return _calotte.from_lonlat(array)
 
 
@@ -53,7 +54,20 @@ def points_of(surface, points, what="points"):
 
 def direction(point, what):
     """A longitude and latitude in degrees, or a vector."""
-    return sphere_points(np.asarray(point)[np.newaxis], what)[0]
+    array = numbers(point, what)
+    if array.shape not in ((2,), (3,)):
+        raise Error(f"{what} has the shape {array.shape}; give a longitude and a latitude in degrees, or a vector x, y, z")
+    if array.size == 2 and not abs(array[1]) <= 90:
+        raise Error(f"{what} has the latitude {array[1]:g}; give a longitude, then a latitude of -90 to 90 degrees")
+    return sphere_points(array[np.newaxis], what)[0]
+
+
+def latitudes(lower, upper, what):
+    """Two latitudes in degrees, as radians."""
+    values = [float(numbers(value, what)) for value in (lower, upper)]
+    if not -90 <= values[0] < values[1] <= 90:
+        raise Error(f"{what} are {lower!r} and {upper!r}; give the lower one first, -90 to 90 degrees")
+    return [math.radians(value) for value in values]
 
 
 # ---- Numbers with units
@@ -75,6 +89,14 @@ def kilometres(value, unit, what):
     return value * factors[unit]
 
 
+def positive(value, what, unit):
+    """A positive number."""
+    number = float(numbers(value, what))
+    if not 0 < number < math.inf:
+        raise Error(f"{what} is {value!r}; give a positive number of {unit}")
+    return number
+
+
 def angle(size, what, earth_radius=EARTH_RADIUS_KM):
     """A length on the sphere in radians: a number of degrees, or text such as "1000km", "30deg"."""
     if isinstance(size, str):
@@ -83,11 +105,12 @@ def angle(size, what, earth_radius=EARTH_RADIUS_KM):
             raise Error(f"{what} is {size!r}; give a number of degrees, or a length such as "
                         "'1000km' or '30deg'")
         value, unit = parts
-        radians = math.radians(value) if unit == "deg" else kilometres(value, unit, what) / earth_radius
+        radians = (math.radians(value) if unit == "deg" else
+                   kilometres(value, unit, what) / positive(earth_radius, "the Earth's radius", "km"))
     else:
         radians = math.radians(float(numbers(size, what)))
-    if not radians > 0:
-        raise Error(f"{what} is {size!r}; give a positive length")
+    if not 0 < radians <= math.pi:
+        raise Error(f"{what} is {size!r}; give a positive number of degrees, up to 180, or a length such as '1000km'")
     return radians
 
 
@@ -140,7 +163,7 @@ def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
         return _calotte.read_widths(str(widths), surface, earth_radius)
     if callable(widths):
         return _calotte.Widths(_sampled_in(widths, surface) if plane else _sampled(widths))
-    if not plane and hasattr(widths, "dims") and hasattr(widths, "coords"):
+    if not plane and _labels.is_labelled(widths):
         return _calotte.Widths(_labelled(widths))
     if isinstance(widths, tuple):
         if len(widths) != 3:
@@ -177,14 +200,7 @@ def planar_raster(values, x, y):
 
 def _labelled(array):
     """An xarray.DataArray over latitude and longitude."""
-    def axis(*names):
-        for name in names:
-            if name in array.dims:
-                return name
-        raise Error(f"cell widths have the dimensions {tuple(array.dims)}; name two of them lat "
-                    "and lon")
-
-    lat, lon = axis("lat", "latitude"), axis("lon", "longitude")
+    lat, lon = _labels.lat_lon(array, "cell widths")
     ordered = array.transpose(lat, lon)
     unit = str(array.attrs.get("units", ""))
     values = numbers(ordered.values, "cell widths") * _calotte.kilometres_in(unit)

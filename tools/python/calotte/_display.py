@@ -99,9 +99,24 @@ def _surface(surface):
     return f"<calotte.Surface: {what}>"
 
 
+def _extent(x, y, names=("longitudes", "latitudes"), unit=" degrees"):
+    return (f"{names[0]} {min(x):.6g} to {max(x):.6g}, {names[1]} {min(y):.6g} to {max(y):.6g}{unit}")
+
+
+def _raster(raster):
+    return (f"<calotte.Raster: {len(raster.longitudes)} x {len(raster.latitudes)} boxes, "
+            f"{_extent(raster.meridians, raster.parallels)}>")
+
+
 def _widths(widths):
-    return (f"<calotte.CellWidth: {widths.widths.min():.4g} to {widths.widths.max():.4g}{'' if widths.of_plane else ' km'}, "
-            f"{len(widths.longitudes)} x {len(widths.latitudes)} nodes>")
+    extent = (_extent(widths.x, widths.y, "xy", "") if widths.of_plane else
+              _extent(widths.longitudes, widths.latitudes))
+    return (f"<calotte.CellWidth: {len(widths.x)} x {len(widths.y)} nodes, {extent}, cell widths "
+            f"{np.nanmin(widths.widths):.4g} to {np.nanmax(widths.widths):.4g}{'' if widths.of_plane else ' km'}>")
+
+
+def _lists(lists):
+    return f"<calotte.IdLists: {counted(len(lists), 'list')}, {counted(len(lists.ids), 'id')}>"
 
 
 def _density(density):
@@ -220,7 +235,7 @@ for _kind, _line in ((_calotte.Mesh, _mesh), (_calotte.Polygons, _polygons),
                      (_calotte.Locations, _locations), (_calotte.Quality, _quality),
                      (_calotte.Check, _check), (_calotte.Unit, _unit),
                      (_calotte.OperatorErrors, _errors), (_calotte.Surface, _surface),
-                     (_calotte.CellWidth, _widths),
+                     (_calotte.CellWidth, _widths), (_calotte.Raster, _raster), (_calotte.IdLists, _lists),
                      (_calotte.Density, _density), (_calotte.Range, _numbers),
                      (_calotte.Percentiles, _numbers), (_calotte.ErrorNorms, _numbers)):
     _kind.__repr__ = _line

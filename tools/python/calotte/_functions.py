@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments, _calotte, _display, _units
+from . import _arguments, _calotte, _display, _fields, _labels, _units
 from ._arguments import EARTH_RADIUS_KM
-from ._calotte import (Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
+from ._calotte import (Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi)
 
 Array = NDArray[np.float64]
@@ -57,10 +57,10 @@ def delaunay(points: ArrayLike, surface: SurfaceLike | None = None, *, merge_wit
              duplicates: str = "merge", regions: int | None = None) -> Mesh:
     """The Delaunay triangulation of points on the sphere, or in the plane.
 
-    points: n x 3 directions of any length; or n x 2 in a plane, in any unit. With a surface of the
-        sphere, such as Surface(), n x 2 are longitudes and latitudes in degrees.
-    surface: where the points live, as for cvt(). Default: the sphere for n x 3, the whole plane for
-        n x 2. Its rings clip the Voronoi cells, and have no effect on the triangles.
+    points: n x 3 directions of any length, or n x 2 longitudes and latitudes in degrees; in a plane
+        n x 2, in any unit.
+    surface: where the points live, as for cvt(); plane() for a plane without an end. Default: the
+        sphere. Its rings clip the Voronoi cells, and have no effect on the triangles.
     merge_within: points nearer than this become one; radians, in the plane the unit of the points.
     duplicates: "merge" makes one site of equal points; "refuse" raises an error for them.
     regions: the number of parts that are triangulated in parallel; no effect on the result.
@@ -72,11 +72,26 @@ def delaunay(points: ArrayLike, surface: SurfaceLike | None = None, *, merge_wit
     """
     if duplicates not in ("merge", "refuse"):
         raise Error(f"duplicates is {duplicates!r}; give merge or refuse")
-    sites = _arguments.numbers(points, "points")
-    plane = surface is None and sites.shape[1:] == (2,)
-    surface = _calotte.plane() if plane else _arguments.surface(surface)
-    return _calotte.delaunay(_arguments.points_of(surface, sites), surface, merge_within,
+    surface = _arguments.surface(surface)
+    return _calotte.delaunay(_arguments.points_of(surface, points), surface, merge_within,
                              duplicates == "merge", regions)
+
+
+def neighbours(mesh: Grid) -> IdLists:
+    """The neighbours of each cell: the sites at the other ends of the edges of its own.
+
+    mesh: of a mesh that read() returns with cells of its file, and of Polygons, the neighbours are
+        those that share a side, ascending; of others they are counter-clockwise.
+    Returns IdLists: neighbours(mesh)[i] is an array of the neighbours of cell i. As a sparse matrix
+    they are scipy.sparse.csr_matrix((np.ones(len(ids)), ids, begin)). Raises Error.
+
+    >>> around = neighbours(delaunay(fibonacci_sphere(1000)))
+    >>> len(around), around[17].tolist()
+    (1000, [4, 9, 22, 30, 38, 25, 12])
+    """
+    if not isinstance(mesh, (Mesh, Polygons)):
+        raise Error(f"the mesh is {type(mesh).__name__}; give a Mesh or Polygons")
+    return _calotte.neighbours(content_of(mesh), mesh)
 
 
 def content_of(grid):
@@ -236,17 +251,23 @@ def locate(mesh: Mesh, positions: ArrayLike) -> Locations:
 
 # ---- From one grid to another
 
-def raster(longitudes: ArrayLike, latitudes: ArrayLike) -> Raster:
+def raster(longitudes: ArrayLike, latitudes: ArrayLike | None = None) -> Raster:
     """The boxes of a raster of longitudes and latitudes.
 
     longitudes, latitudes: of the nodes, degrees; latitudes may descend. The sides of the boxes are
-        half way between nodes. Or the numbers of columns and rows of equal boxes over the sphere.
+        half way between nodes. Or the numbers of columns and rows of equal boxes over the sphere. Or
+        an xarray.DataArray or Dataset alone, whose coordinates lat and lon are the nodes.
     Returns a Raster. Raises Error, with the index of a value out of order.
 
     >>> boxes = raster(720, 360)
     >>> len(boxes), bool(abs(boxes.areas.sum() - 4 * math.pi) < 1e-11)
     (259200, True)
     """
+    if latitudes is None:
+        if not (hasattr(longitudes, "dims") and hasattr(longitudes, "coords")):
+            raise Error("there are no latitudes; give longitudes and latitudes in degrees, two numbers of boxes, or a "
+                        "DataArray with the coordinates lat and lon")
+        longitudes, latitudes = _labels.nodes(longitudes)
     if np.ndim(longitudes) == 0 and np.ndim(latitudes) == 0:
         return _calotte.global_raster(_count(longitudes, "the number of columns"),
                                       _count(latitudes, "the number of rows"))
@@ -270,15 +291,6 @@ def _field_grid(grid):
     return _calotte.grid_of_mesh(grid, None if content is None else content.polygons)
 
 
-def _by_cell(values, cells):
-    """Numbers for each cell as cells x fields."""
-    fields = _arguments.numbers(values, "values")
-    if fields.ndim not in (1, 2) or len(fields) != cells:
-        raise Error(f"values have the shape {fields.shape}; give a number, or a row of them, for "
-                    f"each of the {_display.counted(cells, 'cell')}")
-    return fields[:, np.newaxis] if fields.ndim == 1 else fields
-
-
 def _require_method(method, methods):
     if method not in methods:
         raise Error(f"no method {method}; give one of: {', '.join(methods)}")
@@ -288,8 +300,7 @@ def _require_method(method, methods):
 class Weights:
     """Weights from the cells of a source to those of a target, of interpolation_weights().
 
-    matrix: scipy.sparse.csr_matrix, a row for each cell or position of the target. Rows sum to 1;
-        those outside of the source have no entries.
+    matrix: that of to_scipy_sparse().
     source_area: of the cells; steradians, in a plane the square of its unit. Empty unless
         conservative.
     target_area: the same of the target.
@@ -298,15 +309,26 @@ class Weights:
     """
 
     _weights: Any
-    _grids: Any = None
-    _method: str = "conservative"
-    _target: str = "cell"
+    _method: str
+    _source: Any = None
+    _target: Any = None
+    _dim: str | None = None
+
+    def to_scipy_sparse(self) -> Any:
+        """The weights as a scipy.sparse.csr_matrix, a row for each cell or position of the target.
+
+        Rows sum to 1; those outside of the source have no entries. It needs scipy.
+        """
+        try:
+            from scipy.sparse import csr_matrix
+        except ImportError:
+            raise Error("a sparse matrix needs scipy; install it, as with pip install scipy, or use apply()") from None
+        values, columns, begin, shape = self._weights.rows()
+        return csr_matrix((values, columns, begin), shape=shape)
 
     @property
     def matrix(self) -> Any:
-        from scipy.sparse import csr_matrix  # optional
-        values, columns, begin, shape = self._weights.rows()
-        return csr_matrix((values, columns, begin), shape=shape)
+        return self.to_scipy_sparse()
 
     @property
     def source_area(self) -> Array:
@@ -326,26 +348,31 @@ class Weights:
 
     def __repr__(self) -> str:
         rows, columns = self._weights.rows()[3]
-        return f"<calotte.Weights: {columns} to {_display.counted(rows, self._target)}, {self._method}>"
+        return (f"<calotte.Weights: {columns} to {_display.counted(rows, 'position' if self._dim else 'cell')}, "
+                f"{self._method}>")
 
-    def apply(self, values: ArrayLike, *, min_cover: float = 0.0) -> Array:
+    def apply(self, values: ArrayLike, *, min_cover: float = 0.0) -> Any:
         """The values at the target.
 
-        values: a number for each cell of the source, or cells x fields. NaN does not count: the others
-            are divided by their part of the weights.
+        values: a number for each cell of the source; or an array with further dimensions, such as
+            times before the cells and levels after them. Of a raster the last two may be its
+            latitudes and longitudes. Or an xarray.DataArray, of which one comes back: with its other
+            dimensions, their coordinates, its name and attributes, and with those of the target.
+            NaN does not count: the others are divided by their part of the weights.
         min_cover: the part of a cell, 0 to 1, that values must cover; below it the cell is NaN.
         """
-        found = self._weights.apply(_by_cell(values, self._weights.rows()[3][1]), min_cover)
-        return found[:, 0] if np.ndim(values) == 1 else found
+        columns = self._weights.rows()[3][1]
+        field = _fields.field_at(values, columns, self._source if isinstance(self._source, Raster) else None)
+        return _fields.at_target(field, self._weights.apply(field.by_cell, min_cover), self._target, self._dim)
 
     def write(self, path: Path, *, format: str = "esmf") -> None:
         """Writes the weights as NetCDF: "esmf", for ncremap, or "scrip", for CDO."""
         if format not in ("esmf", "scrip"):
             raise Error(f"no format {format} of weights; give esmf or scrip")
-        if self._grids is None:
+        if self._source is None or self._dim is not None:
             raise Error("these weights are not between two grids; of a file, use the file")
-        _calotte.write_grid_weights(str(path), self._weights, *self._grids, self._method,
-                                    format == "scrip")
+        _calotte.write_grid_weights(str(path), self._weights, _field_grid(self._source), _field_grid(self._target),
+                                    self._method, format == "scrip")
 
 
 def interpolation_weights(source: Grid | Raster, target: ArrayLike | Grid | Raster, *,
@@ -371,44 +398,44 @@ def interpolation_weights(source: Grid | Raster, target: ArrayLike | Grid | Rast
         return _weights_at(source, target, "linear" if method is None else method)
     method = "conservative" if method is None else method
     _require_method(method, _METHODS)
-    grids = _field_grid(source), _field_grid(target)
-    return Weights(_calotte.grid_weights(*grids, method), grids, method)
+    return Weights(_calotte.grid_weights(_field_grid(source), _field_grid(target), method), method, source, target)
 
 
 def _weights_at(source, positions, method):
     """Weights at positions."""
     _require_method(method, _METHODS_AT_POSITIONS)
+    dim = str(positions.dims[0]) if hasattr(positions, "dims") else "position"
     positions = (_arguments.sphere_points(positions, "positions") if isinstance(source, Raster) else
                  _positions(source, positions))
-    return Weights(_calotte.weights_at(source, positions, method), None, method, "position")
+    return Weights(_calotte.weights_at(source, positions, method), method, source, positions, dim)
 
 
 def read_weights(path: Path) -> Weights:
     """Reads weights of ESMF or SCRIP, also of other programs. Raises Error."""
-    return Weights(_calotte.read_grid_weights(str(path)), None, "of a file")
+    return Weights(_calotte.read_grid_weights(str(path)), "of a file")
 
 
 def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | Grid | Raster, *,
-                method: str = "linear") -> Array:
+                method: str = "linear") -> Any:
     """Values at positions, or at the cells of another grid.
 
     mesh: what the values are of: a Mesh, Polygons or a Raster; to positions a Mesh or a Raster.
-    values: n numbers, one for each site or cell; or n x fields. NaN does not count, as in
+    values: n numbers, one for each site or cell, with any further dimensions; also of xarray. See
         Weights.apply().
     positions: as for locate(); or a Mesh, Polygons or a Raster.
     method: "linear", "nearest" or "natural"; to another grid also "conservative". See
         interpolation_weights(), whose result serves for many values.
-    Returns k numbers, or k x fields; NaN outside of an open mesh or a raster. Raises Error, with the
-    index of the position.
+    Returns k numbers in place of the n; NaN outside of an open mesh or a raster. Raises Error, with
+    the index of the position.
 
-    >>> mesh = delaunay(random_points(200, rectangle((0, 0), (1, 1))))
+    >>> mesh = delaunay(random_points(200, rectangle((0, 0), (1, 1))), plane())
     >>> values = mesh.points @ [1.0, 2.0]
     >>> inside, outside = interpolate(mesh, values, [(0.5, 0.25), (7.0, 7.0)], method="natural")
     >>> round(float(inside), 12), float(outside)
     (1.0, nan)
     """
-    if isinstance(mesh, (Mesh, Polygons, Raster)):
-        _by_cell(values, len(mesh))  # before the weights are made
+    if isinstance(mesh, (Mesh, Polygons, Raster)):  # before the weights are made
+        _fields.field_at(values, len(mesh), mesh if isinstance(mesh, Raster) else None)
     return interpolation_weights(mesh, positions, method=method).apply(values)
 
 
@@ -509,7 +536,7 @@ class Plan:
 
     cells: their number.
     actions: of the run, in order; see Action.
-    kind: of its start; see cvt().
+    start: its kind; see cvt().
     widths: the least and the greatest, km, in a plane in its unit; None without widths.
     gradient: the largest of the widths, km per km; most models need less than 0.03. None in a plane
         and without widths.
@@ -518,7 +545,7 @@ class Plan:
 
     cells: int
     actions: tuple[Action, ...]
-    kind: str
+    start: str
     widths: tuple[float, float] | None = None
     gradient: float | None = None
     steepest: tuple[float, float] | None = None
@@ -536,7 +563,7 @@ class Plan:
     def __repr__(self) -> str:
         unit = "" if self.gradient is None else " km"
         widths = "" if self.widths is None else f", {self.widths[0]:.4g} to {self.widths[1]:.4g}{unit}"
-        return (f"<calotte.Plan: {_display.counted(self.cells, 'cell')}, start {self.kind}, "
+        return (f"<calotte.Plan: {_display.counted(self.cells, 'cell')}, start {self.start}, "
                 f"{_display.counted(len(self.actions), 'action')}{widths}>")
 
     def _width(self, k: int) -> float:
@@ -547,17 +574,17 @@ def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
          earth_radius: float = EARTH_RADIUS_KM, **options: Any) -> Plan:
     """What cvt() would do with the same arguments: cells, actions, and what the widths demand.
 
-    options: other arguments of cvt(), such as start and density.
+    options: other arguments of cvt(), such as cells and density.
 
     >>> plan(120.0).cells
     40962
-    >>> [action.kind for action in plan(start=2562, density="x8").actions]
+    >>> [action.kind for action in plan(cells=2562, density="x8").actions]
     ['start', 'insert', 'bisect', 'insert', 'converge', 'polish', 'raise']
     """
     recipe = _recipe(cell_width=cell_width, surface=surface, earth_radius=earth_radius,
                              **options)
     schedule = _calotte.plan(recipe)
-    made = {"cells": schedule.cells, "kind": schedule.kind, "actions": _actions(schedule.actions)}
+    made = {"cells": schedule.cells, "start": schedule.start, "actions": _actions(schedule.actions)}
     widths = schedule.widths
     if widths is None:
         return Plan(**made)
@@ -572,16 +599,20 @@ def _actions(rows):
     return tuple(Action(*row) for row in rows)
 
 
-def _take_start(recipe, start):
-    """A number of cells, or points; None where the widths give the number."""
-    if start is None:
+def _take_start(recipe, cells, points):
+    """A number of cells, or points; neither where the widths give the number."""
+    if points is not None:
+        recipe.points = _arguments.points_of(recipe.surface, points)
+        if recipe.start == _USUAL.start:
+            recipe.start = "points"
+    if cells is None:
         return
-    if np.ndim(start) > 0:
-        recipe.points = _arguments.points_of(recipe.surface, start)
-        if recipe.kind == _USUAL.kind:
-            recipe.kind = "points"
-        return
-    recipe.cells = _count(start, "the number of cells")
+    if np.ndim(cells) > 0:
+        raise Error(f"the number of cells is an array of the shape {np.shape(cells)}; give the generators to begin with "
+                    "as points=")
+    if points is not None:
+        raise Error("points give the number of cells; leave cells out")
+    recipe.cells = _count(cells, "the number of cells")
     if recipe.cells == 0:
         raise Error("the number of cells is 0; give a larger one, or None where widths give it")
 
@@ -595,8 +626,8 @@ def _take_lines(recipe, lines):
                         for line in lines]
 
 
-def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None, lines=None,
-            earth_radius=EARTH_RADIUS_KM, **fields):
+def _recipe(cells=None, density=None, cell_width=None, surface=None, fixed=None, lines=None,
+            earth_radius=EARTH_RADIUS_KM, points=None, **fields):
     """The recipe of the arguments of cvt()."""
     recipe = _calotte.Recipe()
     for name, value in fields.items():
@@ -613,7 +644,7 @@ def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None,
     if fixed is not None:
         recipe.fixed = _arguments.points_of(surface, fixed, "fixed points")
     _take_lines(recipe, lines)
-    _take_start(recipe, start)
+    _take_start(recipe, cells, points)
     return recipe
 
 
@@ -634,22 +665,21 @@ def _reporting(progress):
     return show
 
 
-def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = None,
+def cvt(cells: int | None = None, *, density: DensityLike | None = None,
         cell_width: WidthLike = None, surface: SurfaceLike | None = None,
-        fixed: ArrayLike | None = None,
+        points: ArrayLike | None = None, fixed: ArrayLike | None = None,
         lines: Path | Sequence[ArrayLike] | None = None, seed: int = _USUAL.seed,
         method: str = _USUAL.method, norm: str = _USUAL.norm, tolerance: float | None = None,
         max_iterations: int = _USUAL.max_iterations, well_centred: bool | None = None,
         least_spacing: float = _USUAL.least_spacing, insertion_rounds: int | None = None,
-        kind: str = _USUAL.kind, bisections: int | None = None, iterations: int | None = None,
+        start: str = _USUAL.start, bisections: int | None = None, iterations: int | None = None,
         boundary: str = _USUAL.boundary, walls: str = _USUAL.walls,
         limited_area: bool = _USUAL.limited_area, duplicates: str = _USUAL.duplicates,
         merge_within: float = _USUAL.merge_within, regions: int | None = None,
         progress: Progress | bool | None = None, earth_radius: float = EARTH_RADIUS_KM) -> Cvt:
     """A centroidal Voronoi tessellation of the sphere, of a plane, or of a part of them.
 
-    start: the number of cells; or the generators at the start, n x 3 directions, or n x 2 longitudes
-        and latitudes in degrees, in a plane n x 2; or None, where cell_width gives the number.
+    cells: their number; None where cell_width or points give it.
     density: "uniform"; "x8", the paper's bump with an eightfold contrast of widths;
         "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"; several such names, of which the
         maximum counts; the result of density(); or a function of k x 3 unit vectors (in a plane
@@ -662,10 +692,13 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         it; or a function of arrays of x and y.
     surface: where the cells are. Default: the sphere. A part of it is one of circle(), ellipse(),
         box(), channel() or polygon(); text as of `calotte cvt --region`, such as
-        "circle=-105,40,1000km" or "box=-20,30,40,60"; or a file of a region. A plane is one of rectangle(), periodic_box() or planar_polygon().
-    fixed: generators that stay, as those of the start; the first cells of the result. A number of
-        cells includes them, points of the start do not; without a number, free ones are added where
-        the fixed ones leave the widths unmet.
+        "circle=-105,40,1000km" or "box=-20,30,40,60"; or a file of a region. A plane is one of
+        rectangle(), periodic_box() or planar_polygon().
+    points: the generators to begin with: n x 3 directions, or n x 2 longitudes and latitudes in
+        degrees; in a plane n x 2.
+    fixed: generators that stay, as points; the first cells of the result. The number of cells
+        includes them, points do not; without a number, free ones are added where the fixed ones
+        leave the widths unmet.
     lines: that generators follow, such as rivers: a file, GeoJSON of LineString; or arrays as of
         fixed, one for each line. They are at the demanded distances; ends and confluences have one.
         They follow the fixed ones in the result.
@@ -678,11 +711,11 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     least_spacing: with well_centred, the least distance of neighbours over the demanded width, 0 to
         0.95.
     insertion_rounds: of the start multilevel, on its last level; default as `calotte cvt`.
-    kind: of the start: multilevel, continuation, density, random, fibonacci, spiral, icosahedron,
-        geodesic or hexagonal, as `calotte cvt --start`. Default: multilevel where a density, widths,
+    start: multilevel, continuation, density, random, fibonacci, spiral, icosahedron, geodesic or
+        hexagonal, as `calotte cvt --start`. Default: multilevel where a density, widths,
         fixed points, a region or a plane are given, unless bisections or iterations are; otherwise
         continuation, in the plane density.
-    bisections: of the converged grid, each followed by a descent; for other kinds than multilevel
+    bisections: of the converged grid, each followed by a descent; for other starts than multilevel
         and continuation, which choose them. Default 0.
     iterations: this number on each level, in place of norm, tolerance and max_iterations.
     boundary: "clip", where that of a region clips the cells; or "generators", where the mesh ends
@@ -704,9 +737,9 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     True
     """
     recipe = _recipe(
-        start, density, cell_width, surface, fixed, lines, earth_radius, seed=seed, method=method,
+        cells, density, cell_width, surface, fixed, lines, earth_radius, points, seed=seed, method=method,
         norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
-        least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
+        least_spacing=least_spacing, insertion_rounds=insertion_rounds, start=start,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
         limited_area=limited_area, duplicates=duplicates, merge_within=merge_within)
     schedule = _calotte.plan(recipe)
@@ -715,8 +748,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     mesh, report, between = _calotte.make_grid(recipe, schedule, regions, _reporting(progress))
     report["actions"] = _actions(report["actions"])
     if between is not None:
-        cells, cells._content = between
-        report["cells"] = cells
+        polygons, polygons._content = between
+        report["cells"] = polygons
     if cell_width is not None and mesh.surface.is_sphere:
         mesh._earth_radius = earth_radius
     grid = Cvt(mesh, **report)
@@ -1081,13 +1114,16 @@ def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
     """
     axes = [_arguments.angle(size, "a semi-axis", earth_radius)
             for size in (semi_major, semi_minor)]
+    if not axes[0] >= axes[1] or not axes[0] < math.pi / 2:
+        raise Error(f"the semi-axes of the ellipse are {semi_major!r} and {semi_minor!r}; give the major one first, below "
+                    "90 degrees, in degrees or as text such as '1000km'")
     return _calotte.ellipse(_arguments.direction(centre, "the centre"), *axes,
                             math.radians(bearing), corners)
 
 
 def channel(lower: float, upper: float, corners: int = 360) -> Surface:
     """The region between two latitudes in degrees."""
-    return _calotte.channel(math.radians(lower), math.radians(upper), corners)
+    return _calotte.channel(*_arguments.latitudes(lower, upper, "the channel's latitudes"), corners)
 
 
 def box(west: float, south: float, east: float, north: float) -> Surface:
@@ -1118,6 +1154,11 @@ def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Surface:
                             else _arguments.direction(inside, "the point inside"))
 
 
+def plane() -> Surface:
+    """The plane without an end, for points x and y in any unit."""
+    return _calotte.plane()
+
+
 def rectangle(lower: ArrayLike, upper: ArrayLike) -> Surface:
     """The domain between two corners (x, y) of the plane."""
     return _calotte.rectangle(lower, upper)
@@ -1126,7 +1167,7 @@ def rectangle(lower: ArrayLike, upper: ArrayLike) -> Surface:
 def periodic_box(x: float, y: float) -> Surface:
     """The doubly periodic box [0, x) x [0, y) of the plane."""
     if not (x > 0 and y > 0):
-        raise Error(f"the periodic box is {x} x {y}; give two positive lengths")
+        raise Error(f"the periodic box is {x} x {y}; give two positive lengths, in the unit of the points")
     return _calotte.periodic_box([x, y])
 
 
@@ -1157,29 +1198,32 @@ def density(*names: str, join: str = "maximum", surface: SurfaceLike | None = No
 
 # ---- Files
 
-def read(path: Path, *, fields: str = "scalars") -> Grid:
+def read(path: Path, *, fields: str = "scalars", mesh: Path | None = None,
+         at: Mapping[str, int] | None = None) -> Grid:
     """What a file holds, of any format that `calotte convert` reads.
 
     fields: which of the file's fields to read: "scalars", those with one number for each cell;
         "all", or "none". They are the attribute `fields`, and written files get them again.
+    mesh: the file of the mesh, where `path` holds fields alone, such as a model's history.
+    at: indices of fields in their further dimensions, from 0 on, -1 for the last, as {"Time": 3,
+        "lev": 0}: a name may be a part of that of the dimension, in any case.
     Returns a Mesh, whose attribute `cells` has the file's cells where these are not the Voronoi cells
     of a whole mesh; or Polygons, where the file has no triangles for its cells.
     Raises Error, naming the line or the variable.
     """
     if fields not in ("scalars", "all", "none"):
         raise Error(f"fields is {fields!r}; give scalars, all or none")
-    grid, content = _read(path, fields)
+    grid, content = _calotte.read(str(path), fields, "" if mesh is None else str(mesh), _fields.choices(at))
     grid._content = content
     return grid
 
 
-def _read(path, fields):
-    return _calotte.read(str(path), fields)
+def read_fields(path: Path, *, mesh: Path | None = None, at: Mapping[str, int] | None = None) -> dict[str, Array]:
+    """The numbers at the cells of a file: a dict of arrays in the order of read()'s sites.
 
-
-def read_fields(path: Path) -> dict[str, Array]:
-    """The numbers at the cells of a file: a dict of arrays in the order of read()'s sites."""
-    return dict(_read(path, "scalars")[1].fields)
+    mesh, at: as for read().
+    """
+    return dict(read(path, mesh=mesh, at=at).fields)
 
 
 def read_points(path: Path) -> Array:
@@ -1204,11 +1248,13 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
     density, cell_width: as for cvt(); they set meshDensity and nominalMinDc. Without them the density
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
     surface: as for voronoi().
-    fields: a dict of n numbers at the cells, beside those that were read.
+    fields: a dict of numbers at the cells, beside those that were read: n, or an array with further
+        dimensions, of which one has the size n. Those before it have the name Time in a NetCDF file,
+        those after it levels. An xarray.DataArray gives the names, with its unit and its long_name.
     order: of the cells: "curve", along a space-filling curve; or "input", that of the mesh.
         Default: curve in NetCDF files, input in others and for meshes of refine() and coarsen().
     """
-    values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
+    values = [_fields.state_of(mesh, name, value) for name, value in (fields or {}).items()]
     output = _calotte.Output(str(path), format, sphere_radius,
                              _density_for(mesh, density, cell_width),
                              density is not None or cell_width is not None, values, history,
@@ -1218,7 +1264,7 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
     mesh = within(mesh, surface)
     if content is not None:
         names = _calotte.write_content(content, mesh, output)
-        dropped = [name for name in names if name in content.fields or name in values]
+        dropped = [name for name in names if name in content.fields or name in (fields or {})]
         if dropped:
             warnings.warn(f"{path}: the format does not hold {', '.join(dropped)}", stacklevel=2)
     elif isinstance(mesh, Polygons):
@@ -1279,7 +1325,7 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
     grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
     density = _arguments.density(None, widths._field(grid.mesh.surface))
-    output = _calotte.Output(str(path), "mpas", sphere_radius, density, True, {}, "", None, None,
+    output = _calotte.Output(str(path), "mpas", sphere_radius, density, True, [], "", None, None,
                              earth_radius)
     return _calotte.write_limited_area(output, grid.mesh, surface)
 
@@ -1322,7 +1368,7 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     if raster_values not in ("height", "sea-fraction", "land-fraction"):
         raise Error(f"raster_values is {raster_values!r}; give height, sea-fraction or "
                     "land-fraction")
-    points = np.asarray(seeds, dtype=float).reshape(-1, 2 if np.size(seeds) % 2 == 0 else 3)
+    points = np.empty((0, 2)) if np.size(seeds) == 0 else np.atleast_2d(_arguments.numbers(seeds, "seeds"))
     words = {"land": _files(land) + _files(coast), "passages": _files(passages),
              "barriers": _files(barriers), "raster": "" if raster is None else str(raster),
              "raster_variable": raster_variable, "raster_values": raster_values, "field": field,

@@ -7,7 +7,7 @@ import types
 
 import numpy as np
 
-from . import _arguments, _calotte, _functions, _plot, _units
+from . import _arguments, _calotte, _fields, _functions, _plot, _units
 
 
 def _cells(mesh):
@@ -19,7 +19,7 @@ def _cells(mesh):
     return cells
 
 
-def _fields(grid):
+def _file_fields(grid):
     """The file's numbers at cells by name, each n or n x further dimensions, in the file's units."""
     content = _functions.content_of(grid)
     return types.MappingProxyType({} if content is None else content.fields)
@@ -57,6 +57,23 @@ def _keep_unit(kind):
         vars(measures).update(state[1])
 
     kind.__getstate__, kind.__setstate__ = state_of, take_state
+
+
+def _lonlat(grid, k):
+    try:
+        return _fields.lonlat(grid)[:, k]
+    except _calotte.Error as error:  # hasattr() is false then
+        raise AttributeError(str(error)) from None
+
+
+def _lon(grid):
+    """(n,) longitudes of the sites, or of the centres of polygons; degrees, -180 to 180."""
+    return _lonlat(grid, 0)
+
+
+def _lat(grid):
+    """(n,) latitudes of the sites, or of the centres of polygons; degrees."""
+    return _lonlat(grid, 1)
 
 
 def _not_voronoi(cells):
@@ -116,6 +133,8 @@ def _wave_step(errors, speed, radius=1.0):
     speed: sqrt(g H), in the unit of length over that of time. radius: of the sphere, in the unit of
     length; 1 in a plane.
     """
+    speed = _arguments.positive(speed, "the speed", "the unit of length over that of time, such as m/s")
+    radius = _arguments.positive(radius, "the radius", "the unit of length, such as m")
     return float(np.sqrt(8 / errors.primal_eigenvalue)) * radius / speed
 
 
@@ -128,6 +147,9 @@ def _diffusion_step(errors, viscosity, radius=1.0, of="divergence"):
     values = {"divergence": errors.primal_eigenvalue, "vorticity": errors.dual_eigenvalue}
     if of not in values:
         raise _calotte.Error(f"no diffusion of {of}; give divergence or vorticity")
+    viscosity = _arguments.positive(viscosity, "the viscosity",
+                                    "the square of the unit of length over that of time, such as m^2/s")
+    radius = _arguments.positive(radius, "the radius", "the unit of length, such as m")
     return 2 * radius**2 / (viscosity * values[of])
 
 
@@ -136,8 +158,10 @@ _calotte.OperatorErrors.wave_step = _wave_step
 _calotte.OperatorErrors.diffusion_step = _diffusion_step
 _calotte.Surface.contains = _contains
 for _class in (_calotte.Mesh, _calotte.Polygons):
-    _class.fields = property(_fields, doc=_fields.__doc__)
+    _class.fields = property(_file_fields, doc=_file_fields.__doc__)
     _class.earth_radius = property(_earth_radius, doc=_earth_radius.__doc__)
+    _class.lon = property(_lon, doc=_lon.__doc__)
+    _class.lat = property(_lat, doc=_lat.__doc__)
     _class.to_mpas = _to_mpas
     _class.to_xarray = _to_xarray
     _class.plot = _plot.plot

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _arguments, _calotte, _display, _functions, _units
+from . import _arguments, _calotte, _display, _fields, _functions, _units
 from ._calotte import Error
 
 _DEGREES = 180 / np.pi
@@ -113,26 +113,20 @@ def _areas(begin, ids, corners, spherical):
 
 # ---- Values
 
-def _values(grid, field, areas, unit):
+def _values(grid, field, at, areas, unit):
     """Numbers by cell, and their name."""
     if field is None or (isinstance(field, str) and field in ("width", "area")):
+        if at:
+            raise Error("at chooses indices of a field; give the field")
         if field == "area":
             return (areas, "cell area") if unit is None else (
                 areas * unit.of_steradian, f"cell area, {unit.area}")
         widths = np.sqrt(2 / np.sqrt(3) * areas)
         return (widths, "cell width") if unit is None else (
             widths * unit.of_radian, f"cell width, {unit.name}")
-    name = field if isinstance(field, str) else ""
-    if name:
-        if name not in grid.fields:
-            raise Error(f"no field {name}; give width, area, numbers, or one of the file's: "
-                        f"{', '.join(sorted(grid.fields)) or 'none'}")
-        field = grid.fields[name]
-    values = _arguments.numbers(field, name or "the field")
-    if values.shape != areas.shape:
-        raise Error(f"{name or 'the field'} has the shape {values.shape}; give one number for each "
-                    f"of the {len(areas)} cells, such as fields[name][:, 0]")
-    return values, name
+    values, name = _fields.chosen(grid, field, len(areas), at)
+    indices = ", ".join(f"{dim}={index}" for dim, index in (at or {}).items())
+    return values, f"{name} at {indices}".strip() if indices else name
 
 
 # ---- Polygons of a picture
@@ -298,13 +292,15 @@ def _new_axes(projection):
     return plt.figure(figsize=(9, 5), layout="constrained").add_subplot(projection=projection)
 
 
-def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, surface=None,
+def plot(self, field=None, *, at=None, ax=None, projection=None, view=None, coast=True, surface=None,
          cmap=None, vmin=None, vmax=None, edgecolor=None, linewidth=0.2, colorbar=True, label=None,
          units=None, earth_radius=None):
     """Draws the cells, coloured by a field. Returns the axes of matplotlib, which it needs.
 
     field: "width" (default: distance between the centres of hexagons of a cell's area), "area",
-        the name of one of `fields`, or n numbers.
+        the name of one of `fields`, or n numbers, with any further dimensions; also of xarray.
+    at: indices in these, as for read(): {"Time": 3, "lev": 0}. Of an array without names they are
+        "axis 0" and so on.
     ax: axes to draw in; those of cartopy give the projection. Default: new ones.
     projection: of cartopy, for new axes. Default: longitude and latitude.
     view: longitude and latitude in degrees of the middle of a globe, in place of a map.
@@ -328,7 +324,7 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, s
     if not len(ids):
         raise Error("the mesh has no whole cell to draw")
     areas = _areas(begin, ids, corners, spherical)
-    values, name = _values(self, field, areas, _units.unit_of(self, units, earth_radius))
+    values, name = _values(self, field, at, areas, _units.unit_of(self, units, earth_radius))
     if ax is None:
         ax = _new_axes(projection)
     picture = _picture(begin, ids, corners, areas, spherical, getattr(ax, "projection", None), view)

@@ -70,6 +70,10 @@ def by_distance(lines, near=None, far=None, over=None, *, profile=None, smooth=F
         raise _calotte.Error(f"the side {side!r} of a coast is neither sea nor land; give one of these")
     if (profile is None) != all(value is not None for value in (near, far, over)):
         raise _calotte.Error("give near, far and over, or a profile, but not both")
+    if profile is None:
+        unit = "km" if surface.is_sphere else "the plane's unit"
+        for value, what in ((near, "near"), (far, "far"), (over, "over")):
+            _arguments.positive(value, what, unit)
     nodes = _nodes([(0, near), (over, far)] if profile is None else profile, "distances and widths")
     is_file = _is_file(lines)
     signed = nodes.min(axis=0, initial=0)[0] < 0
@@ -89,6 +93,8 @@ def around(lines, width, over, *, surface=None):
     lines, surface: as for by_distance(). width, over: the distance, km.
     """
     surface = _arguments.surface(surface)
+    unit = "km" if surface.is_sphere else "the plane's unit"
+    width, over = _arguments.positive(width, "the width", unit), _arguments.positive(over, "over", unit)
     if _is_file(lines):
         return _calotte.widths_around_file(str(lines), width, over, surface)
     return _calotte.widths_around(_lines(lines, surface), width, over, surface)

@@ -8,6 +8,7 @@
 #include <calotte/voronoi.h>
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -100,10 +101,25 @@ void add_quality(py::module_& module) {
              "Sum of the triangles' areas over that of the sphere; 0 in the plane."});
 }
 
+/// The ids of one list, in place.
+py::object list_at(const py::object& self, std::int64_t i) {
+  const auto& all = self.cast<const IdLists&>();
+  const std::int64_t at = i < 0 ? i + all.size() : i;
+  if (at < 0 || at >= all.size())
+    throw py::index_error("there are " + std::to_string(all.size()) + " lists, and no " +
+                          std::to_string(i));
+  return view(all.items, self)[py::slice(all.begin[at], all.begin[at + 1], 1)];
+}
+
+void add_lists(py::module_& module) {
+  py::class_<IdLists> lists(module, "IdLists",
+                            "A list of ids for each cell or site: lists[i] is an array.");
+  add_members(lists, Member{"ids", &IdLists::items, "All ids, list after list."},
+              Member{"begin", &IdLists::begin, "(n + 1,) list i is ids[begin[i]:begin[i + 1]]."});
+  lists.def("__len__", &IdLists::size).def("__getitem__", &list_at);
+}
+
 void add_voronoi(py::module_& module) {
-  py::class_<IdLists> lists(module, "_IdLists", "Lists of a pickled Voronoi.");
-  add_members(lists, Member{"begin", &IdLists::begin, "Where each begins."},
-              Member{"items", &IdLists::items, "One list after another."});
   py::class_<Voronoi, std::shared_ptr<Voronoi>> cells(
       module, "Voronoi",
       "The Voronoi tessellation of a mesh, as a C-grid model staggers it, of voronoi().\n\n"
@@ -160,6 +176,7 @@ Quality quality_of(const Mesh& mesh, const Density& density) {
 } // namespace
 
 void add_cells(py::module_& module) {
+  add_lists(module);
   add_voronoi(module);
   add_ranges(module);
   add_unit(module);

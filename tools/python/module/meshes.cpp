@@ -94,8 +94,10 @@ void add_meshes(py::module_& module) {
           "The Surface that the points live on; in a plane its rings clip the cells.");
   add_member(type, Member{"triangles", &Mesh::triangles,
                           "(m, 3) ids of sites, counter-clockwise, seen from outside a sphere."});
-  add_member(type, Member{"neighbours", &Mesh::neighbours,
-                          "(m, 3) the triangle across from each vertex; -1 at an open boundary."});
+  add_member(type,
+             Member{"neighbours", &Mesh::neighbours,
+                    "(m, 3) the triangle across from each vertex; -1 at an open boundary. Of sites "
+                    "see the function neighbours()."});
   add_member(
       type, Member{"site_of_input", &Mesh::site_of_input, "For each point of the input its site."});
   type.def_property_readonly("closed", &Mesh::closed,

@@ -133,7 +133,7 @@ void add_recipe(py::module_& module) {
     recipe.lines = call([&] { return read_lines(path, recipe.surface); });
   });
   add_word(
-      type, "kind", "kind of start", start_words(),
+      type, "start", "start", start_words(),
       [](auto& recipe) -> auto& { return recipe.start.kind; });
   add_word(
       type, "norm", "norm", norm_words(), [](auto& recipe) -> auto& { return recipe.stop.norm; });
@@ -167,7 +167,7 @@ void add_schedule(py::module_& module) {
   py::class_<Schedule> type(module, "Schedule");
   type.def_property_readonly("cells",
                              [](const Schedule& schedule) { return schedule.recipe.cells; })
-      .def_property_readonly("kind",
+      .def_property_readonly("start",
                              [](const Schedule& schedule) {
                                return word_in(start_words(), schedule.recipe.start.kind);
                              })
