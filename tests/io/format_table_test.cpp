@@ -25,6 +25,7 @@ using io_detail::format_table;
 using io_detail::FormatRow;
 using io_detail::mpas_variables;
 using io_detail::MpasDimension;
+using io_detail::MpasNumbers;
 using io_detail::MpasVariable;
 using io_detail::NetcdfReader;
 
@@ -108,6 +109,9 @@ TEST_CASE("MPAS files hold the variables of the table, as it describes them") {
       CHECK(file.text(variable, "units") == row.units);
       CHECK(file.text(variable, "long_name") == row.long_name);
       CHECK_FALSE(row.long_name.empty());
+      const bool ids = row.numbers == MpasNumbers::cells || row.numbers == MpasNumbers::edges ||
+                       row.numbers == MpasNumbers::vertices;
+      CHECK(row.long_name.ends_with(", 1-based; 0 where there is none") == ids);
     }
   };
   compare("sphere.nc", mesh, Format::mpas);

@@ -181,7 +181,9 @@ void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
     out.file.fields.push_back(carried(sources, field, kind));
   }
   out.file.fields.push_back({.name = map_name,
-                             .long_name = "number of the cell in the file that this was made from",
+                             .long_name =
+                                 "number of the cell in the file that this was made from, 1-based; "
+                                 "0 for a new cell",
                              .values = (sources.changed.old_of_new.array() + 1).cast<double>(),
                              .integer = true});
 }
