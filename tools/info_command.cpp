@@ -207,7 +207,7 @@ std::string field_table(const InfoRequest& request) {
   if (!source.at.empty())
     lines = row("indices", 26, words_of(source.at)) + lines;
   if (!file.ignored.empty())
-    lines += message("not shown: {}, which have several numbers for each cell, or none\n",
+    lines += message("not shown: {}; --at chooses one of several numbers for each cell\n",
                      listed(file.ignored));
   return lines;
 }

@@ -32,8 +32,10 @@ namespace {
 using base_detail::require;
 using base_detail::shortly;
 
-void require_range(double value, double least, double most, const std::string& name) {
-  require(value >= least && value <= most, "the {} is {}; give {} to {}", name, value, least, most);
+void require_range(double value, double least, double most, const std::string& name,
+                   const char* unit = "") {
+  require(value >= least && value <= most, "the {} is {}; give {} to {}{}", name, value, least,
+          most, unit);
 }
 
 void require_demand(const Mesh& mesh, const WidthDemand& demand, Way way,
@@ -52,13 +54,13 @@ void require_demand(const Mesh& mesh, const WidthDemand& demand, Way way,
   }
   require(demand.radius_km > 0 && std::isfinite(demand.radius_km),
           "the radius is {}; give a positive number of km", demand.radius_km);
-  require_range(options.tolerance, 0.01, 0.5, "tolerance");
+  require_range(options.tolerance, 0.01, 0.5, "tolerance", ", a share of the width");
   const double met = way == Way::finer ? 1 / (1 - options.tolerance) : 1 + options.tolerance;
   require(!demand.region || demand.factor > met,
           "the factor {} is met by all cells within the tolerance {}; give a factor above {}, or a "
           "smaller tolerance",
           demand.factor, options.tolerance, met);
-  require_range(options.gradient, 0.001, 1, "gradient");
+  require_range(options.gradient, 0.001, 1, "gradient", ", the change of the width by distance");
   require(mesh.triangles.cols() > 0 && mesh.neighbours.cols() == mesh.triangles.cols(),
           "the mesh lacks triangles or neighbours; give one of delaunay() or read_mesh()");
 }

@@ -69,6 +69,9 @@ def test_any_order_of_dimensions_and_nodes(mesh):
     by_units = array.rename(lat="y", lon="x")
     by_units.y.attrs["units"], by_units.x.attrs["standard_name"] = "degrees_north", "longitude"
     assert (calotte.interpolate(calotte.raster(by_units), by_units, mesh).values == expected.values).all()
+    assert (calotte.interpolate(array, array, mesh).values == expected.values).all()
+    back = calotte.interpolate(mesh, expected, array)
+    assert back.dims == array.dims and (back.lat == array.lat).all()
     assert len(calotte.raster(array)) == len(calotte.raster(array.to_dataset())) == 648
 
 

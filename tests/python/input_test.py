@@ -86,6 +86,7 @@ def test_widths_and_densities():
     refuses("no density y8", calotte.cvt, 100, density="y8")
     refuses("no parameter bta", calotte.cvt, 100, density="tanh:bta=1")
     refuses("could not convert", calotte.cvt, 100, density="tanh:lon=east")
+    refuses("alpha is '5km'; give radians, or degrees such as 30deg", calotte.cvt, 100, density="tanh:alpha=5km")
     refuses("not both", calotte.cvt, 100, density="x8", cell_width=500.0)
     refuses("give cell widths as", calotte.cvt, cell_width=object())
     refuses("no-such.nc", calotte.cvt, cell_width="no-such.nc")
@@ -99,6 +100,7 @@ def test_options():
     refuses("", calotte.cvt, 100, tolerance=-1.0)
     refuses("", calotte.cvt, 100, tolerance=0.0)
     refuses("there is no number of cells; give one", calotte.cvt)
+    refuses("seed is -1, which is out of range", calotte.cvt, 100, seed=-1)
     refuses("give surface=", calotte.quality, calotte.delaunay(np.eye(3)[:, :2], calotte.plane()))
     refuses("1 or more", calotte.threads(0).__enter__)
     refuses("", calotte.polygon, [(0, 0), (10, 0), (0, 10), (10, 10)])
@@ -119,3 +121,23 @@ def test_masked_values_are_missing():
         calotte.partition(mesh, 2, weights=np.ma.masked_where(north, np.ones(642)))
     with pytest.raises(calotte.Error):
         calotte.delaunay(np.ma.masked_where(np.arange(12).reshape(4, 3) == 5, np.ones((4, 3))))
+
+
+@pytest.mark.parametrize("text, call", [
+    ("latitudes are -91 and 3; give the lower one first, -90 to 90 degrees", lambda: calotte.channel(-91, 3)),
+    ("the radius is -10; give a positive number of degrees", lambda: calotte.circle((0, 0), -10)),
+    ("the centre has the latitude 95; give a longitude, then a latitude of -90 to 90 degrees",
+     lambda: calotte.circle((0, 95), 10)),
+    ("the Earth's radius is -3; give a positive number of km", lambda: calotte.circle((0, 0), "10km", earth_radius=-3)),
+    ("give the major one first, below 90 degrees", lambda: calotte.ellipse((0, 0), 10, 20)),
+    ("the bearing of the ellipse is nan; give degrees", lambda: calotte.ellipse((0, 0), 20, 10, math.nan)),
+    ("the cell width -3 is not a positive number; give km", lambda: calotte.plan(-3)),
+    ("in the unit of the points", lambda: calotte.periodic_box(-1, 2)),
+    ("near is -1; give a positive number of km",
+     lambda: calotte.widths.by_distance([(0, 0), (1, 1)], near=-1, far=5, over=10)),
+    ("over is -5; give a positive number of km", lambda: calotte.widths.share("circle=0,0,10deg", over=-5)),
+    ("give 0 radians or more", lambda: calotte.delaunay(calotte.random_points(50), merge_within=-1)),
+    ("such as plane()", lambda: calotte.delaunay([(5.0, 4000.0), (1, 2), (3, 4), (5, 6)])),
+])
+def test_messages_name_the_unit_of_an_argument(text, call):
+    refuses(text, call)

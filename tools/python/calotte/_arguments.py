@@ -239,12 +239,13 @@ def _bump_words(text, plane):
 
 
 def _positive(text, name, value, in_degrees):
-    if in_degrees and value.endswith("deg"):
-        number = math.radians(float(value[:-3]))
-    else:
-        number = float(value)
+    unit = "radians, or degrees such as 30deg" if in_degrees else "the plane's unit"
+    try:
+        number = math.radians(float(value[:-3])) if in_degrees and value.endswith("deg") else float(value)
+    except ValueError:
+        raise Error(f"density {text}: {name} is {value!r}; give {unit}") from None
     if not number > 0:
-        raise Error(f"density {text}: {name} {value!r} is not positive")
+        raise Error(f"density {text}: {name} {value!r} is not positive; give {unit}")
     return number
 
 

@@ -72,9 +72,14 @@ def delaunay(points: ArrayLike, surface: SurfaceLike | None = None, *, merge_wit
     """
     if duplicates not in ("merge", "refuse"):
         raise Error(f"duplicates is {duplicates!r}; give merge or refuse")
-    surface = _arguments.surface(surface)
-    return _calotte.delaunay(_arguments.points_of(surface, points), surface, merge_within,
-                             duplicates == "merge", regions)
+    where = _arguments.surface(surface)
+    try:
+        sites = _arguments.points_of(where, points)
+    except Error as error:  # such as x and y in metres
+        if surface is None and np.shape(points)[1:] == (2,):
+            error.args = (f"{error}; or for x and y of a plane surface=, such as plane()",)
+        raise
+    return _calotte.delaunay(sites, where, merge_within, duplicates == "merge", regions)
 
 
 def neighbours(mesh: Grid) -> IdLists:
@@ -279,6 +284,13 @@ _METHODS = ("conservative", "linear", "nearest", "natural")
 _METHODS_AT_POSITIONS = ("linear", "natural", "nearest")
 
 
+def _grid_of(value):
+    """The raster of an array or a Dataset of xarray with latitudes and longitudes; others as they are."""
+    if hasattr(value, "coords") and _labels.find_lat_lon(value) is not None:
+        return raster(value)
+    return value
+
+
 def _field_grid(grid):
     """The grid as interpolation takes it."""
     if isinstance(grid, Raster):
@@ -286,7 +298,7 @@ def _field_grid(grid):
     if isinstance(grid, Polygons):
         return _calotte.grid_of_mesh(None, grid)
     if not isinstance(grid, Mesh):
-        raise Error(f"a grid is {type(grid).__name__}; give a Mesh, Polygons or a Raster")
+        raise Error(f"a grid is {type(grid).__name__}; give a Mesh, Polygons, a Raster or a DataArray with lat and lon")
     content = content_of(grid)
     return _calotte.grid_of_mesh(grid, None if content is None else content.polygons)
 
@@ -379,7 +391,8 @@ def interpolation_weights(source: Grid | Raster, target: ArrayLike | Grid | Rast
                           method: str | None = None) -> Weights:
     """The weights from the cells of one grid to those of another, on one surface, or to positions.
 
-    source: a Mesh, Polygons or a Raster; to positions a Mesh or a Raster.
+    source: a Mesh, Polygons or a Raster, or what raster() makes one of alone, such as a DataArray; to
+        positions a Mesh or a Raster.
     target: a Mesh, Polygons or a Raster; or positions, as for locate().
     method: "conservative", by shared areas, whose integrals are kept, between grids only; "linear"
         on each triangle, or bilinear in a raster; "nearest", the cell that holds the position or the
@@ -394,6 +407,7 @@ def interpolation_weights(source: Grid | Raster, target: ArrayLike | Grid | Rast
     >>> bool(np.abs(ones - 1).max() < 1e-12)
     True
     """
+    source, target = _grid_of(source), _grid_of(target)
     if not isinstance(target, (Mesh, Polygons, Raster)):
         return _weights_at(source, target, "linear" if method is None else method)
     method = "conservative" if method is None else method
@@ -419,7 +433,8 @@ def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | G
                 method: str = "linear") -> Any:
     """Values at positions, or at the cells of another grid.
 
-    mesh: what the values are of: a Mesh, Polygons or a Raster; to positions a Mesh or a Raster.
+    mesh: what the values are of: a Mesh, Polygons or a Raster, or as for interpolation_weights(); to
+        positions a Mesh or a Raster.
     values: n numbers, one for each site or cell, with any further dimensions; also of xarray. See
         Weights.apply().
     positions: as for locate(); or a Mesh, Polygons or a Raster.
@@ -434,6 +449,7 @@ def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | G
     >>> round(float(inside), 12), float(outside)
     (1.0, nan)
     """
+    mesh = _grid_of(mesh)
     if isinstance(mesh, (Mesh, Polygons, Raster)):  # before the weights are made
         _fields.field_at(values, len(mesh), mesh if isinstance(mesh, Raster) else None)
     return interpolation_weights(mesh, positions, method=method).apply(values)
@@ -626,6 +642,15 @@ def _take_lines(recipe, lines):
                         for line in lines]
 
 
+def _set(target, name, value):
+    """Sets an argument of a run, of the kind that the library takes."""
+    try:
+        setattr(target, name, value)
+    except TypeError:
+        raise Error(f"{name} is {value!r}, which is out of range or of another kind; help(calotte.cvt) tells what it "
+                    "is") from None
+
+
 def _recipe(cells=None, density=None, cell_width=None, surface=None, fixed=None, lines=None,
             earth_radius=EARTH_RADIUS_KM, points=None, **fields):
     """The recipe of the arguments of cvt()."""
@@ -633,7 +658,7 @@ def _recipe(cells=None, density=None, cell_width=None, surface=None, fixed=None,
     for name, value in fields.items():
         if not hasattr(type(recipe), name):
             raise TypeError(f"unexpected keyword argument {name!r}")
-        setattr(recipe, name, value)
+        _set(recipe, name, value)
     surface = _arguments.surface(surface, earth_radius=earth_radius)
     recipe.surface, recipe.radius_km = surface, earth_radius
     _arguments.require_one(density, cell_width)
@@ -909,7 +934,7 @@ def _changed(change, mesh, demand, surface, nearest, conservative, progress, **f
     mesh = within(mesh, surface)
     options = _calotte.RefineOptions()
     for name, value in fields.items():
-        setattr(options, name, value)
+        _set(options, name, value)
     made, made_content, values = change(mesh, content, demand, options,
                                         _methods(nearest, conservative, content),
                                         _reporting(progress))
@@ -1112,6 +1137,8 @@ def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
     semi_major, semi_minor: as the radius of circle(). bearing: of the major axis, degrees clockwise
     from north.
     """
+    if not math.isfinite(bearing):
+        raise Error(f"the bearing of the ellipse is {bearing!r}; give degrees clockwise from north")
     axes = [_arguments.angle(size, "a semi-axis", earth_radius)
             for size in (semi_major, semi_minor)]
     if not axes[0] >= axes[1] or not axes[0] < math.pi / 2:

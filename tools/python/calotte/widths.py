@@ -150,6 +150,8 @@ def share(region, over=None, *, profile=None, smooth=False, variable=""):
     """
     if isinstance(region, Share):
         return region
+    if over is not None:
+        _arguments.positive(over, "over", "km")
     if over is not None and profile is not None:
         raise _calotte.Error("give over, or a profile, but not both")
     if str(region).endswith(".nc"):
