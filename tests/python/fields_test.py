@@ -107,11 +107,14 @@ def test_arrays_that_do_not_fit(mesh):
         calotte.raster([1.0, 2.0, 3.0])
 
 
-def test_a_sparse_matrix_needs_scipy(mesh, monkeypatch):
+def test_what_is_not_installed_is_named(mesh, monkeypatch):
     weights = calotte.interpolation_weights(mesh, BOXES)
     monkeypatch.setitem(sys.modules, "scipy.sparse", None)
+    monkeypatch.setitem(sys.modules, "xarray", None)
     with pytest.raises(calotte.Error, match="needs scipy; install it.*or use apply"):
         weights.to_scipy_sparse()
+    with pytest.raises(calotte.Error, match="needs xarray and netCDF4; install them"):
+        mesh.to_xarray()
     monkeypatch.undo()
     pytest.importorskip("scipy.sparse")
     assert (weights.to_scipy_sparse() != weights.matrix).nnz == 0

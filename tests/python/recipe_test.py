@@ -164,6 +164,9 @@ def test_a_plan_is_what_runs():
 
 def test_words():
     refuses("no start cube; give one of: automatic, points", calotte.cvt, 100, start="cube")
+    refuses("give the number of cells as cells=, the generators to begin with as points=", calotte.cvt, start=100)
+    refuses("shape (50, 3); give the generators to begin with as points=", calotte.cvt, calotte.random_points(50))
+    refuses("points give the number of cells", calotte.cvt, 50, points=calotte.random_points(50))
     refuses("no method newton; give one of: auto, lloyd", calotte.cvt, 100, method="newton")
     refuses("no boundary open; give one of: clip, generators", calotte.cvt, 100, boundary="open")
     refuses("no rule for duplicates keep", calotte.cvt, 100, duplicates="keep")

@@ -291,6 +291,11 @@ def _grid_of(value):
     return value
 
 
+def _field_of(grid, values, cells):
+    """Numbers at the cells of a grid, which may be unknown."""
+    return _fields.field_at(values, cells, grid if isinstance(grid, Raster) else None)
+
+
 def _field_grid(grid):
     """The grid as interpolation takes it."""
     if isinstance(grid, Raster):
@@ -373,8 +378,9 @@ class Weights:
             NaN does not count: the others are divided by their part of the weights.
         min_cover: the part of a cell, 0 to 1, that values must cover; below it the cell is NaN.
         """
-        columns = self._weights.rows()[3][1]
-        field = _fields.field_at(values, columns, self._source if isinstance(self._source, Raster) else None)
+        return self._at_target(_field_of(self._source, values, self._weights.rows()[3][1]), min_cover)
+
+    def _at_target(self, field, min_cover=0.0):
         return _fields.at_target(field, self._weights.apply(field.by_cell, min_cover), self._target, self._dim)
 
     def write(self, path: Path, *, format: str = "esmf") -> None:
@@ -450,9 +456,10 @@ def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | G
     (1.0, nan)
     """
     mesh = _grid_of(mesh)
-    if isinstance(mesh, (Mesh, Polygons, Raster)):  # before the weights are made
-        _fields.field_at(values, len(mesh), mesh if isinstance(mesh, Raster) else None)
-    return interpolation_weights(mesh, positions, method=method).apply(values)
+    if not isinstance(mesh, (Mesh, Polygons, Raster)):
+        _field_grid(mesh)  # raises
+    field = _field_of(mesh, values, len(mesh))  # before the weights are made
+    return interpolation_weights(mesh, positions, method=method)._at_target(field)
 
 
 # ---- Centroidal Voronoi tessellations
@@ -644,6 +651,9 @@ def _take_lines(recipe, lines):
 
 def _set(target, name, value):
     """Sets an argument of a run, of the kind that the library takes."""
+    if name == "start" and not isinstance(value, str):
+        raise Error("start is the kind of start, a word such as 'geodesic'; give the number of cells as cells=, the "
+                    "generators to begin with as points=")
     try:
         setattr(target, name, value)
     except TypeError:

@@ -1,6 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays with named dimensions: those of xarray, which is not imported."""
+"""Arrays with named dimensions: those of xarray, which is imported only to make one from none."""
 from ._calotte import Error
+
+
+def xarray(what):
+    """The module. what: needs it."""
+    try:
+        import xarray as module
+    except ImportError:
+        raise Error(f"{what} needs xarray and netCDF4; install them, as with pip install xarray netCDF4") from None
+    return module
 
 
 def is_labelled(values):

@@ -7,7 +7,7 @@ import types
 
 import numpy as np
 
-from . import _arguments, _calotte, _fields, _functions, _plot, _units
+from . import _arguments, _calotte, _fields, _functions, _labels, _plot, _units
 
 
 def _cells(mesh):
@@ -92,7 +92,7 @@ def _to_xarray(grid, kind="mpas", **options):
 
     Options as write(). It needs xarray and netCDF4.
     """
-    import xarray
+    xarray = _labels.xarray("to_xarray()")
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "mesh.nc")
         _functions.write(path, grid, format=kind, **options)

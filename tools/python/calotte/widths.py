@@ -14,7 +14,7 @@ surface, a rule has the plane's unit, and places are x and y.
 """
 import numpy as np
 
-from . import _arguments, _calotte
+from . import _arguments, _calotte, _labels
 from ._calotte import Share, Widths
 
 __all__ = ["Widths", "around", "blend", "by_channel", "by_depth", "by_latitude", "by_distance", "maximum", "minimum",
@@ -190,7 +190,7 @@ def _demanded(widths):
 
 def _to_xarray(self, step=0):
     """An xarray.DataArray over lat and lon, as sampled() makes it; NaN where no rule gives a width."""
-    import xarray
+    xarray = _labels.xarray("to_xarray()")
     wider = 4e8  # km, than any demand
     raster = minimum(self, wider).sampled(step)
     widths = np.where(raster.widths < wider, raster.widths, np.nan)
