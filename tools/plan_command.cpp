@@ -19,6 +19,7 @@
 #include "run/grid_plan.h"
 #include "run/progress.h"
 #include "text/text.h"
+#include "view/page.h"
 
 #include <calotte/grid.h>
 #include <calotte/mesh_file.h>
@@ -43,11 +44,24 @@ struct PlanRequest {
   std::string picture, raster, report;
 };
 
-/// The spacings on the map.
+bool is_page(const std::string& path) { return path.ends_with(".html"); }
+
+/// The spacings on a map, or on a page as those of calotte view.
 void draw_widths(const PlanRequest& request, const Density& density, const GridPlan& plan,
                  const Unit& unit) {
   if (!plan.surface.is_sphere())
     refuse("-o draws widths on the sphere; leave it out for a plane");
+  const bool coastlines = shows_coastlines(request.coastlines, plan.radius_km);
+  if (is_page(request.picture)) {
+    write_file(request.picture, page_of(plan_page({.widths = plan.density,
+                                                   .cells = plan.cells,
+                                                   .density = density,
+                                                   .unit = plan.spacing.unit,
+                                                   .radius_km = plan.radius_km,
+                                                   .lengths = unit,
+                                                   .coastlines = coastlines})));
+    return;
+  }
   const auto values = [&](const Points3& x) {
     return spacings_of(density, plan.spacing.unit * unit.of_radian, x);
   };
@@ -56,9 +70,7 @@ void draw_widths(const PlanRequest& request, const Density& density, const GridP
   draw(request.picture,
        SphereField{values, message("{} cells: {}, {}", grouped(plan.cells), plan.density, range),
                    "cell width, " + unit.name},
-       Look{.projection = Projection::plate_carree,
-            .graticule = true,
-            .coastlines = shows_coastlines(request.coastlines, plan.radius_km)});
+       Look{.projection = Projection::plate_carree, .graticule = true, .coastlines = coastlines});
 }
 
 void require_request(const PlanRequest& request) {
@@ -67,7 +79,7 @@ void require_request(const PlanRequest& request) {
   require_start(run);
   require_sphere_radius(request.sphere_radius.value_or(1));
   radius_for(model_of(request.model), request.sphere_radius); // throws for a contradiction
-  if (!request.picture.empty())
+  if (!request.picture.empty() && !is_page(request.picture))
     picture_format(request.picture);
   if (!request.raster.empty() && (!widths.in_km() || widths.uniform))
     refuse("--raster writes widths of --cell-width FILE; give one, or leave it out");
@@ -155,7 +167,8 @@ void add_outputs(CLI::App& command, PlanRequest& request) {
   add_units(command, request.units);
   command
       .add_option("-o,--output", request.picture,
-                  "Draw the cell widths on a map of longitude and latitude: .png, .svg or .pdf")
+                  "Draw the cell widths on a map of longitude and latitude: .png, .svg or .pdf; or "
+                  "write a page as those of calotte view: .html")
       ->type_name("FILE")
       ->configurable(false); // that of calotte cvt is the mesh
   add_coastlines(command, request.coastlines);

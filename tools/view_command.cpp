@@ -168,15 +168,13 @@ ViewPage view_of_plan(const ViewRequest& request) {
   const double unit = schedule.widths && !request.cells
                           ? schedule.widths->least() / words.radius
                           : survey_spacing(schedule.density, schedule.recipe.cells).unit;
-  ViewPage view;
-  view.title = message("plan of {} cells: {}", spaced(schedule.recipe.cells),
-                       density_name(*request.density));
-  view.meshes.push_back(
-      view_plan(view.title, schedule.density, unit, unit_of(request.units, radius)));
-  view.meshes.back().radius_km = radius;
-  view.meshes.back().planned = schedule.recipe.cells;
-  view.coastlines = shows_coastlines(request.coastlines, radius);
-  return view;
+  return plan_page({.widths = density_name(*request.density),
+                    .cells = schedule.recipe.cells,
+                    .density = schedule.density,
+                    .unit = unit,
+                    .radius_km = radius,
+                    .lengths = unit_of(request.units, radius),
+                    .coastlines = shows_coastlines(request.coastlines, radius)});
 }
 
 /// Shows a file in the browser that the desktop prefers.

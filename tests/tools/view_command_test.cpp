@@ -276,6 +276,9 @@ TEST_CASE("two meshes, a plan, and the states of a run") {
   CHECK(bump.mesh(0)["home"]["lon"].get<double>() == doctest::Approx(-90).epsilon(0.05));
   CHECK(bump.mesh(0)["home"]["lat"].get<double>() == doctest::Approx(30).epsilon(0.1));
   CHECK(bump.measure("prescribed")["unit"] == "degrees");
+  make(bench, "plan --cells 4000 --density tanh:lon=-90,lat=30,beta=30deg,alpha=0.2,gamma=x8 "
+              "-o plan.html");
+  CHECK(HtmlPage(bench.file("plan.html")).header["title"] == bump.header["title"]);
   const HtmlPage angles = make_page(bench, "--plan --cell-width 60km --units radians");
   CHECK(angles.measure("prescribed")["mean"] == doctest::Approx(60.0 / 6371));
 }

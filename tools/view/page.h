@@ -31,6 +31,21 @@ struct ViewPage {
   std::vector<ViewState> states;
 };
 
+/// A grid of the sphere before it is made.
+struct PlannedGrid {
+  std::string widths; ///< the name of its density or widths
+  std::int64_t cells = 0;
+  Density density;
+  double unit = 0;                      ///< the spacing where the density is 1, radians
+  std::optional<double> radius_km = {}; ///< of the sphere
+  Unit lengths;                         ///< of the page
+  bool coastlines = true;
+};
+
+/// The spacings of a grid and their gradient, on a regular mesh of the sphere. The title has the
+/// number of cells, and the page opens where they are finest.
+ViewPage plan_page(const PlannedGrid& grid);
+
 /// The HTML of a page that holds all it needs: data, program and style. All text from files is
 /// data, never markup.
 std::string page_of(const ViewPage& view);

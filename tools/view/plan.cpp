@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/spacing_survey.h"
 #include "text/text.h"
-#include "view/view_mesh.h"
+#include "view/page.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
@@ -33,39 +34,49 @@ DoubleVector gradients(const Mesh& mesh, const DoubleVector& values) {
   return slopes;
 }
 
+std::vector<Quantity> quantities_of(const Mesh& sphere, const DoubleVector& widths,
+                                    const Unit& lengths) {
+  std::vector<Quantity> list;
+  list.push_back({.name = "prescribed",
+                  .label = "cell width",
+                  .unit = lengths.name,
+                  .help = "Cell width that the options prescribe.",
+                  .logarithmic = true,
+                  .values = lengths.of_radian * widths});
+  list.push_back({.name = "gradient",
+                  .label = "gradient of the width",
+                  .unit = "km/km",
+                  .help = "Change of the width with distance; most models need less than 0.03.",
+                  .worst = Worst::high,
+                  .values = gradients(sphere, widths)});
+  for (Quantity& quantity : list)
+    summarise(quantity);
+  return list;
+}
+
 } // namespace
 
-ViewMesh view_plan(const std::string& name, const Density& density, double unit,
-                   const Unit& lengths) {
+ViewPage plan_page(const PlannedGrid& grid) {
   const Mesh sphere = delaunay(bisected_icosahedron(level));
-  ViewMesh mesh{.name = name};
+  const DoubleVector widths = spacings_of(grid.density, grid.unit, sphere.points);
+  ViewPage page;
+  page.title = message("plan of {} cells: {}", spaced(grid.cells), grid.widths);
+  page.coastlines = grid.coastlines;
+  ViewMesh mesh{.name = page.title, .radius_km = grid.radius_km};
   mesh.cells = mesh.total = sphere.points.cols();
+  mesh.planned = grid.cells;
   mesh.points = sphere.points;
   mesh.triangles = sphere.triangles;
   mesh.notice = message(
       "The widths that the options prescribe, at {} places; no grid is made yet. ", mesh.cells);
-  const DoubleVector widths = spacings_of(density, unit, sphere.points);
   Eigen::Index finest = 0;
   if (widths.minCoeff(&finest) < widths.maxCoeff()) {
     const Points2 at = to_lonlat(sphere.points.col(finest));
     mesh.home = {at(0, 0), at(1, 0)};
   }
-  mesh.quantities.push_back({.name = "prescribed",
-                             .label = "cell width",
-                             .unit = lengths.name,
-                             .help = "Cell width that the options prescribe.",
-                             .logarithmic = true,
-                             .values = lengths.of_radian * widths});
-  mesh.quantities.push_back({.name = "gradient",
-                             .label = "gradient of the width",
-                             .unit = "km/km",
-                             .help = "Change of the width with distance; most models need less "
-                                     "than 0.03.",
-                             .worst = Worst::high,
-                             .values = gradients(sphere, widths)});
-  for (Quantity& quantity : mesh.quantities)
-    summarise(quantity);
-  return mesh;
+  mesh.quantities = quantities_of(sphere, widths, grid.lengths);
+  page.meshes.push_back(std::move(mesh));
+  return page;
 }
 
 } // namespace calotte::tools

@@ -67,10 +67,4 @@ void set_plane(ViewMesh& mesh, const Mesh& planar, const Polygons& cells);
 /// The same for the cells that voronoi() makes.
 void set_plane(ViewMesh& mesh, const Mesh& planar);
 
-/// The spacings that a density prescribes and their gradient, on a regular mesh of the sphere. The
-/// page opens where they are finest.
-/// \param unit the spacing where the density is 1, radians. \param lengths the unit of the page.
-ViewMesh view_plan(const std::string& name, const Density& density, double unit,
-                   const Unit& lengths);
-
 } // namespace calotte::tools
