@@ -214,7 +214,7 @@ Surface box(double west, double south, double east, double north) {
   Points3 ring(3, std::ssize(corners));
   for (std::size_t i = 0; i < corners.size(); ++i)
     set_column(ring, static_cast<Eigen::Index>(i), corners[i]);
-  return UncheckedSurface::of_sphere({std::move(ring)});
+  return UncheckedSurface::of_sphere({ring});
 }
 
 Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& point) {
