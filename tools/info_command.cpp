@@ -16,6 +16,7 @@
 
 #include <calotte/check.h>
 #include <calotte/error.h>
+#include <calotte/field_grid.h>
 #include <calotte/limited_area.h>
 #include <calotte/mesh_file.h>
 #include <calotte/quality.h>
@@ -26,6 +27,9 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
@@ -184,32 +188,51 @@ std::string cell_table(const InfoRequest& request, const MeshFile& file) {
   return cell_table(mesh, *request.cell);
 }
 
-/// The ranges of the fields with a number for each cell, a line each.
+/// The fields at cells: those with one number for each at the indices of --at, and the others.
+FieldGrid fields_of(const MeshSource& source) {
+  if (!source.mesh.empty())
+    return read_field_grid(source.path, source.mesh, FieldChoice::scalars, source.at);
+  FieldGrid grid;
+  MeshFile file = read_mesh_file(source, FieldChoice::all);
+  for (MeshField& field : file.fields)
+    if (field.location == FieldLocation::cells)
+      (field.count() > 1 ? grid.not_scalars : grid.fields).push_back(std::move(field));
+  return grid;
+}
+
+std::string range_of(const MeshField& field) {
+  const Quantity quantity = quantity_of(field);
+  const auto text = [](const std::optional<double>& value) {
+    return value ? value_text(*value, "") : "no value";
+  };
+  return message("{} to {}, mean {}{}{}", text(quantity.least), text(quantity.greatest),
+                 text(quantity.mean), quantity.unit.empty() ? "" : " " + quantity.unit,
+                 quantity.missing > 0 ? message(", {} missing", quantity.missing) : "");
+}
+
+/// The dimensions of which --at has no index yet: "Time (4), nVertLevels (3); see --at".
+std::string dimensions_of(const MeshField& field, const std::vector<FieldIndex>& at) {
+  const auto indices = find_indices(field.dimensions, at);
+  std::vector<std::string> names;
+  for (std::size_t d = 0; d < indices.size(); ++d)
+    if (const FieldDimension& dimension = field.dimensions[d]; !indices[d] && dimension.size > 1)
+      names.push_back(message("{} ({})", dimension.name, dimension.size));
+  return listed(names) + "; see --at";
+}
+
+/// The fields at cells, a line each: their ranges, or the dimensions that have several numbers.
 std::string field_table(const InfoRequest& request) {
   const MeshSource& source = *request.source;
   if (!request.report.empty() || request.operators)
     refuse("--mesh and --at print fields, without a report and operators; leave these out");
-  const MeshFile file = read_mesh_file(source, FieldChoice::scalars);
-  std::string lines;
-  for (const MeshField& field : file.fields)
-    if (field.location == FieldLocation::cells) {
-      const Quantity quantity = quantity_of(field);
-      const auto text = [&](const std::optional<double>& value) {
-        return value ? value_text(*value, "") : "no value";
-      };
-      lines += row(field.name, 26,
-                   message("{} to {}, mean {}{}{}", text(quantity.least), text(quantity.greatest),
-                           text(quantity.mean), quantity.unit.empty() ? "" : " " + quantity.unit,
-                           quantity.missing > 0 ? message(", {} missing", quantity.missing) : ""));
-    }
-  if (lines.empty())
-    lines = "no field has one number for each cell; choose indices by --at\n";
-  if (!source.at.empty())
-    lines = row("indices", 26, words_of(source.at)) + lines;
-  if (!file.ignored.empty())
-    lines += message("not shown: {}; --at chooses one of several numbers for each cell\n",
-                     listed(file.ignored));
-  return lines;
+  constexpr std::size_t column = 26;
+  const FieldGrid grid = fields_of(source);
+  std::string lines = source.at.empty() ? "" : row("indices", column, words_of(source.at));
+  for (const MeshField& field : grid.fields)
+    lines += row(field.name, column, range_of(field));
+  for (const MeshField& field : grid.not_scalars)
+    lines += row(field.name, column, dimensions_of(field, source.at));
+  return lines.empty() ? message("{}: no fields at cells\n", source.path) : lines;
 }
 
 /// The table to print. Writes the report, too.

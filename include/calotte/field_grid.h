@@ -22,6 +22,8 @@ struct FieldGrid {
   MeshFile mesh = {};                    ///< where there are no boxes; without its fields
   std::vector<MeshField> fields = {};    ///< at cells
   std::vector<std::string> ignored = {}; ///< variables that are no such field
+  /// Fields that FieldChoice::scalars leaves out, without values; of a file without its mesh alone.
+  std::vector<MeshField> not_scalars = {};
   /// n: 1 for cells that count, 0 for those that the mask of SCRIP (grid_imask) or ESMF
   /// (elementMask) leaves out. Empty where all count.
   Ids mask = {};

@@ -47,9 +47,11 @@ TEST_CASE("info: the ranges of fields without their mesh, at a time and a level"
                   "theta                     1.2e+04 to 1.23e+04, mean 1.215e+04\n"
                   "depth                     0 to 299, mean 149.5\n");
   const Outcome none = bench.run("info history.nc --mesh grid.nc");
-  CHECK(has(none.out, "depth                     0 to 299, mean 149.5\n"));
-  CHECK(has(none.out, "not shown: "));
-  CHECK(has(none.out, "ssh, theta"));
+  CHECK(none.out == "depth                     0 to 299, mean 149.5\n"
+                    "ssh                       Time (3); see --at\n"
+                    "theta                     Time (3), nVertLevels (2); see --at\n");
+  CHECK(has(bench.run("info history.nc --mesh grid.nc --at time=0").out,
+            "theta                     nVertLevels (2); see --at\n"));
   const Outcome cell = bench.run("info history.nc --mesh grid.nc --at Time=1 --cell 7");
   CHECK(has(cell.out, "1007 m"));
   CHECK(bench.run("info grid.nc --at time=0").code == 2);

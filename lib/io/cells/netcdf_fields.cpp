@@ -229,7 +229,7 @@ std::string example(const MeshField& field,
 void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
                     const std::set<std::string>& no_fields, FieldChoice choice,
                     std::vector<MeshField>& fields, std::vector<std::string>& ignored,
-                    const std::vector<FieldIndex>& choices) {
+                    const std::vector<FieldIndex>& choices, std::vector<MeshField>* not_scalars) {
   if (choice == FieldChoice::none)
     return;
   std::vector<FieldDimension> all; // of all fields
@@ -249,7 +249,13 @@ void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& di
       std::erase_if(unused,
                     [&](const FieldIndex& index) { return belongs(index, field->dimensions); });
     }
-    if (!field || (choice == FieldChoice::scalars && count_left(*field, indices) > 1)) {
+    const bool left_out =
+        field && choice == FieldChoice::scalars && count_left(*field, indices) > 1;
+    if (left_out && not_scalars != nullptr) {
+      not_scalars->push_back(*std::move(field));
+      continue;
+    }
+    if (!field || left_out) {
       ignored.push_back(name);
       continue;
     }

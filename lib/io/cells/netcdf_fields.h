@@ -37,12 +37,15 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
 /// \param ignored receives the names of the other variables.
 /// \param indices choices for those fields that have such a dimension; of the first dimension of a
 ///        variable only that index is read.
+/// \param not_scalars receives, if it is given, the fields with several numbers for each cell that
+///        FieldChoice::scalars leaves out, without values; they are not among the ignored.
 /// \throws Error parse, file; invalid_argument as find_indices(), and for a choice that belongs to
 ///         no field.
 void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
                     const std::set<std::string>& no_fields, FieldChoice choice,
                     std::vector<MeshField>& fields, std::vector<std::string>& ignored,
-                    const std::vector<FieldIndex>& indices = {});
+                    const std::vector<FieldIndex>& indices = {},
+                    std::vector<MeshField>* not_scalars = nullptr);
 
 /// Reads a variable as a field of cells at chosen indices.
 /// \param of_cells the index of the dimension of the cells among those of the variable.

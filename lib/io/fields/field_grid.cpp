@@ -258,7 +258,7 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
     if (is_coordinate(file, name))
       coordinates.insert(name);
   read_fields_on(file, {find_cell_dimension(file, grid)}, coordinates, choice, grid.fields,
-                 grid.ignored, choices);
+                 grid.ignored, choices, &grid.not_scalars);
   grid.name = path;
   apply_mask(grid);
   require_records(path, grid, choice);
