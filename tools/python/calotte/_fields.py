@@ -124,9 +124,9 @@ def lonlat(grid):
     return _calotte.to_lonlat(grid.centres)
 
 
-def _degrees(dim, places):
-    """Coordinates of places, as xarray takes them."""
-    return {name: (dim, places[:, k].copy(), {"standard_name": word, "units": unit})
+def _degrees(dim, positions):
+    """Coordinates of positions, as xarray takes them."""
+    return {name: (dim, positions[:, k].copy(), {"standard_name": word, "units": unit})
             for k, (name, word, unit) in enumerate((("lon", "longitude", "degrees_east"),
                                                     ("lat", "latitude", "degrees_north")))}
 
@@ -145,12 +145,12 @@ def _target_coords(target, dim):
             return (dim,), {}
         if target.surface.is_sphere:
             return (dim,), _degrees(dim, lonlat(target))
-        places = target.centres if isinstance(target, _calotte.Polygons) else target.points
+        positions = target.centres if isinstance(target, _calotte.Polygons) else target.points
     else:
-        places = target
-    if places.shape[1] == 3:
-        return (dim,), _degrees(dim, _calotte.to_lonlat(np.ascontiguousarray(places)))
-    return (dim,), {name: (dim, places[:, k].copy()) for k, name in enumerate("xy")}
+        positions = target
+    if positions.shape[1] == 3:
+        return (dim,), _degrees(dim, _calotte.to_lonlat(np.ascontiguousarray(positions)))
+    return (dim,), {name: (dim, positions[:, k].copy()) for k, name in enumerate("xy")}
 
 
 def at_target(field, found, target, dim=None):
@@ -217,7 +217,7 @@ def state_of(grid, name, values):
     return name, field.by_cell, dimensions, leading, units, long_name, texts
 
 
-def chosen(grid, field, cells, at):
+def one_by_cell(grid, field, cells, at):
     """One number for each cell, of a name, an array or a DataArray; and the name."""
     name = field if isinstance(field, str) else str(getattr(field, "name", None) or "")
     if isinstance(field, str):
@@ -256,5 +256,5 @@ def _at(field, name, names, at):
         example = ", ".join(f'"{names[k]}": 0' for k in left)
         raise Error(f"{name} has {', '.join(f'{names[k]} ({others[k]})' for k in left)} for each cell; choose one number, "
                     f"as with at={{{example}}}")
-    place = tuple(0 if index is None else index for index in indices)
-    return np.ascontiguousarray(field.by_cell.reshape(-1, *others)[(slice(None), *place)])
+    index = tuple(0 if index is None else index for index in indices)
+    return np.ascontiguousarray(field.by_cell.reshape(-1, *others)[(slice(None), *index)])

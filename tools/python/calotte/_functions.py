@@ -399,7 +399,7 @@ def interpolation_weights(source: Grid | Raster, target: ArrayLike | Grid | Rast
 
     source: a Mesh, Polygons or a Raster, or what raster() makes one of alone, such as a DataArray; to
         positions a Mesh or a Raster.
-    target: a Mesh, Polygons or a Raster; or positions, as for locate().
+    target: the same, or positions, as for locate().
     method: "conservative", by shared areas, whose integrals are kept, between grids only; "linear"
         on each triangle, or bilinear in a raster; "nearest", the cell that holds the position or the
         centre; "natural", of a mesh, by the areas that a cell of the position would take from the
@@ -435,15 +435,14 @@ def read_weights(path: Path) -> Weights:
     return Weights(_calotte.read_grid_weights(str(path)), "of a file")
 
 
-def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | Grid | Raster, *,
+def interpolate(source: Grid | Raster, values: ArrayLike, target: ArrayLike | Grid | Raster, *,
                 method: str = "linear") -> Any:
     """Values at positions, or at the cells of another grid.
 
-    mesh: what the values are of: a Mesh, Polygons or a Raster, or as for interpolation_weights(); to
-        positions a Mesh or a Raster.
+    source: what the values are of, as for interpolation_weights(); to positions a Mesh or a Raster.
     values: n numbers, one for each site or cell, with any further dimensions; also of xarray. See
         Weights.apply().
-    positions: as for locate(); or a Mesh, Polygons or a Raster.
+    target: positions, as for locate(); or as for interpolation_weights().
     method: "linear", "nearest" or "natural"; to another grid also "conservative". See
         interpolation_weights(), whose result serves for many values.
     Returns k numbers in place of the n; NaN outside of an open mesh or a raster. Raises Error, with
@@ -455,11 +454,11 @@ def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | G
     >>> round(float(inside), 12), float(outside)
     (1.0, nan)
     """
-    mesh = _grid_of(mesh)
-    if not isinstance(mesh, (Mesh, Polygons, Raster)):
-        _field_grid(mesh)  # raises
-    field = _field_of(mesh, values, len(mesh))  # before the weights are made
-    return interpolation_weights(mesh, positions, method=method)._at_target(field)
+    source = _grid_of(source)
+    if not isinstance(source, (Mesh, Polygons, Raster)):
+        _field_grid(source)  # raises
+    field = _field_of(source, values, len(source))  # before the weights are made
+    return interpolation_weights(source, target, method=method)._at_target(field)
 
 
 # ---- Centroidal Voronoi tessellations

@@ -87,7 +87,7 @@ def _to_mpas(grid, path, **options):
     _functions.write(path, grid, format="mpas", **options)
 
 
-def _to_xarray(grid, kind="mpas", **options):
+def _to_xarray(grid, format="mpas", **options):
     """An xarray.Dataset of the conventions of a NetCDF format: mpas, ugrid, scrip ...
 
     Options as write(). It needs xarray and netCDF4.
@@ -95,7 +95,7 @@ def _to_xarray(grid, kind="mpas", **options):
     xarray = _labels.xarray("to_xarray()")
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "mesh.nc")
-        _functions.write(path, grid, format=kind, **options)
+        _functions.write(path, grid, format=format, **options)
         return xarray.load_dataset(path)
 
 

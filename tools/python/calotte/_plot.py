@@ -124,7 +124,7 @@ def _values(grid, field, at, areas, unit):
         widths = np.sqrt(2 / np.sqrt(3) * areas)
         return (widths, "cell width") if unit is None else (
             widths * unit.of_radian, f"cell width, {unit.name}")
-    values, name = _fields.chosen(grid, field, len(areas), at)
+    values, name = _fields.one_by_cell(grid, field, len(areas), at)
     indices = ", ".join(f"{dim}={index}" for dim, index in (at or {}).items())
     return values, f"{name} at {indices}".strip() if indices else name
 
