@@ -314,8 +314,8 @@ void add_draw(CLI::App& app) {
   const std::shared_ptr<DrawArguments> arguments = add_draw_options(*command);
   set_help(*command,
            {.common = {"MESH", "--mesh", "--at", "--output", "--what", "--colour", "--projection",
-                       "--view", "--zoom", "--region", "--size", "--density", "--cell-width",
-                       "--units", "--history", "--spacing-law", "--plane"},
+                       "--view", "--zoom", "--graticule", "--region", "--size", "--density",
+                       "--cell-width", "--units", "--history", "--spacing-law", "--plane"},
             .examples = {"calotte draw mesh.nc -o globe.png --what cells --view 285,38",
                          "calotte draw history.nc --mesh mesh.nc --colour field:theta "
                          "--at time=3,lev=0 -o theta.png",
