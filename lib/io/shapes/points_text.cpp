@@ -65,7 +65,17 @@ void parse_parts(LineReader& reader, std::string_view text, RowParser& parser,
   }
 }
 
-/// Appends the points of parts to `out`, whose matrix has room for those that the text may have.
+/// Gives `out` room for the points that the text may have. Eigen's conservativeResize() would not
+/// throw where there is no memory.
+void make_room(std::int64_t points, PointLines& out) {
+  Points3 larger(3, points);
+  const auto known = std::ssize(out.lines);
+  larger.leftCols(known) = out.points.leftCols(known);
+  out.points = std::move(larger);
+  out.lines.reserve(static_cast<std::size_t>(points));
+}
+
+/// Appends the points of parts.
 void append(const std::vector<Part>& parts, const LineReader& reader, PointLines& out) {
   std::vector<std::int64_t> begin;
   auto points = std::ssize(out.lines);
@@ -73,10 +83,8 @@ void append(const std::vector<Part>& parts, const LineReader& reader, PointLines
     begin.push_back(points);
     points += std::ssize(part.rows.lines);
   }
-  if (points > out.points.cols()) {
-    out.points.conservativeResize(3, std::max(points, reader.estimate_all(points)));
-    out.lines.reserve(static_cast<std::size_t>(out.points.cols()));
-  }
+  if (points > out.points.cols()) // one line, the first, does not tell how long the others are
+    make_room(points == 1 ? 1 : std::max(points, reader.estimate_all(points)), out);
   for (const Part& part : parts)
     for (const std::int64_t line : part.rows.lines)
       out.lines.push_back(part.before + line);
