@@ -80,7 +80,7 @@ struct SeaOptions {
 
 /// A connected part of the sea.
 struct SeaPart {
-  std::int64_t cells = 0;
+  std::int64_t cells = 0;   ///< their number
   std::int32_t middle = -1; ///< one of its cells that is farthest from other cells, in rows
 };
 

@@ -982,7 +982,7 @@ TEST_CASE("on a terminal a line shows the level and a range of the time left [sl
   CHECK(has(outcome.out, "\rcalotte: 20000 cells, iteration "));
   CHECK(has(outcome.out, ", energy x cells "));
   CHECK(has(outcome.out, " s left ("));
-  CHECK(has(outcome.out, "mesh.vtp: 20000 cells, "));
+  CHECK(has(outcome.out, "mesh.vtp: 20 000 cells, "));
 }
 
 TEST_CASE("what can fail at the end is tried before the run") {

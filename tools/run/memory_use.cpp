@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t huge_page = std::int64_t{2} << 20;
 
-/// Bytes on huge pages. The command keeps its memory, so that these are all that it ever touched.
+/// Bytes on huge pages. Where the command keeps its memory, these are all that it ever touched.
 std::int64_t bytes_on_huge_pages() {
   std::ifstream in("/proc/self/smaps_rollup"); // in KiB; other systems lack it
   for (std::string word; in >> word;)
