@@ -174,10 +174,10 @@ void keep_reserve() {
   std::set_new_handler(handle_no_memory);
 }
 
-/// Lets the C library keep freed memory for later blocks. cvt of 2.6 million cells otherwise touches
-/// three times the pages that it holds at its peak, and the first touch of a page costs up to 12 us
-/// on a virtual machine whose host takes free memory back. One heap for all threads wastes the
-/// least. A library that others link must leave this to the process.
+/// Lets the C library keep freed memory for later blocks. cvt of 2.6 million cells otherwise
+/// touches three times the pages that it holds at its peak, and the first touch of a page costs up
+/// to 12 us on a virtual machine whose host takes free memory back. One heap for all threads wastes
+/// the least. A library that others link must leave this to the process.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_ARENA_MAX, 1);
