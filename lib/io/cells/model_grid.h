@@ -79,6 +79,9 @@ template <class T, class Of> NetcdfWriter::Fill<T> table(std::int64_t width, con
 /// The attribute of files on the unit sphere that has the radius of the planet, metres.
 inline constexpr const char* planet_attribute = "planet_radius";
 
+/// The smallest radius of a sphere in metres that is taken for a planet's.
+inline constexpr double smallest_planet = 1e4;
+
 /// A file whose variables are declared together with their contents.
 class NetcdfGridFile {
 public:

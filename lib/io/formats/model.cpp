@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/model_grid.h"
+
 #include <calotte/write.h>
 
 #include <algorithm>
@@ -39,7 +41,6 @@ const ModelNeeds* find_model(std::string_view word) {
 
 bool suits(const ModelNeeds& model, Format format, double sphere_radius, VertexOrder vertex_order,
            const std::vector<FieldDimension>& dimensions) {
-  constexpr double smallest_planet = 1e4; // metres
   const auto is_there = [&](const FieldDimension& wanted) {
     return std::any_of(dimensions.begin(), dimensions.end(), [&](const FieldDimension& dimension) {
       return dimension.name == wanted.name;
@@ -47,7 +48,7 @@ bool suits(const ModelNeeds& model, Format format, double sphere_radius, VertexO
   };
   return format == model.format && vertex_order == model.vertex_order &&
          (sphere_radius == model.sphere_radius ||
-          (model.any_planet && sphere_radius >= smallest_planet)) &&
+          (model.any_planet && sphere_radius >= io_detail::smallest_planet)) &&
          std::all_of(model.dimensions.begin(), model.dimensions.end(), is_there);
 }
 

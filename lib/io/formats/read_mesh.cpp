@@ -74,7 +74,6 @@ std::optional<double> find_planet(const MeshFile& content, Format format,
     return 1000 * radius;
   if (radius != 1)
     return netcdf != nullptr ? std::optional(radius) : std::nullopt;
-  constexpr double smallest_planet = 1e4;                            // metres
   for (const char* const name : {planet_attribute, "sphere_radius"}) // of longitudes and latitudes
     if (const double named = netcdf != nullptr ? netcdf->number("", name, 0) : 0;
         named >= smallest_planet && std::isfinite(named))
