@@ -12,6 +12,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 
 using namespace calotte::test;
 
@@ -223,6 +224,17 @@ TEST_CASE(
             "\nextent                all longitudes, 90.0 S to 40.0 S\n"));
   CHECK(has(shown("--cells 500 --region circle=179,0,1000km"),
             "extent                170.0 E to 172.0 W"));
+  for (const auto& [region, extent] :
+       {std::pair("channel=-23.5,23.5", "all longitudes, 23.5 S to 23.5 N"),
+        std::pair("box=-180,-20,180,20", "all longitudes, 20.0 S to 20.0 N"),
+        std::pair("box=170,60,-170,90", "170.0 E to 170.0 W, 60.0 N to 90.0 N"),
+        std::pair("box=10,-90,50,90", "10.0 E to 50.0 E, 90.0 S to 90.0 N"),
+        std::pair("circle=20,0,90deg", "70.0 W to 110.0 E, 90.0 S to 90.0 N"),
+        std::pair("circle=0,0,120deg", "all longitudes, 90.0 S to 90.0 N")}) {
+    CAPTURE(region);
+    CHECK(has(shown(std::string("--cells 500 --region ") + region),
+              std::string("extent                ") + extent + "\n"));
+  }
   const std::string plane = shown("--cells 500 --rectangle 1,0,3,1");
   CHECK(has(plane, "\nextent                x 1 to 3, y 0 to 1\narea                  2\n"));
   CHECK(has(plane, "\ncell width            0.06796 to 0.06796\n")); // sqrt(2 / sqrt 3 2 / 500)

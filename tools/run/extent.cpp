@@ -9,29 +9,60 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace calotte::tools {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
+/// What the rings of a region say of its extent. Longitudes and latitudes in degrees.
+struct Boundary {
+  std::array<double, 2> latitudes{90, -90};
+  std::vector<double> longitudes; ///< of points that are no poles
+  std::array<bool, 2> at_pole{};  ///< whether it passes the south pole, the north pole
+  bool goes_round = false;        ///< whether a ring surrounds the axis
+};
 
-/// The latitudes of an arc: of its ends, and of its highest and lowest point if it passes them.
-void take_latitudes(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                    std::array<double, 2>& y) {
-  const auto take = [&y](const Eigen::Vector3d& x) {
-    const double latitude = degrees * std::atan2(x.z(), std::hypot(x.x(), x.y()));
-    y = {std::min(y[0], latitude), std::max(y[1], latitude)};
-  };
-  take(from);
+/// Adds a point. \return its longitude; none at a pole.
+std::optional<double> add_point(const Eigen::Vector3d& x, Boundary& boundary) {
+  constexpr double rounding = 1e-12;
+  const Points2 at = to_lonlat(x);
+  std::array<double, 2>& y = boundary.latitudes;
+  y = {std::min(y[0], at(1, 0)), std::max(y[1], at(1, 0))};
+  if (x.head<2>().norm() < rounding * x.norm()) {
+    boundary.at_pole[x.z() > 0 ? 1 : 0] = true;
+    return std::nullopt;
+  }
+  boundary.longitudes.push_back(at(0, 0));
+  return at(0, 0);
+}
+
+/// Adds an arc: its ends, its middle, and its highest and lowest point if it passes them.
+/// \return degrees that it turns to the east; none if it passes a pole.
+std::optional<double> add_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                              Boundary& boundary) {
+  bool passes_pole = !add_point(from + to, boundary);
   const Eigen::Vector3d normal = from.cross(to);
   const Eigen::Vector3d top = normal.squaredNorm() * Eigen::Vector3d::UnitZ() - normal.z() * normal;
   for (const double sign : {1.0, -1.0}) {
     const Eigen::Vector3d x = sign * top;
     if (normal.dot(from.cross(x)) > 0 && normal.dot(x.cross(to)) > 0)
-      take(x);
+      passes_pole |= !add_point(x, boundary);
   }
+  const std::optional<double> west = add_point(from, boundary), east = add_point(to, boundary);
+  return passes_pole || !west || !east ? std::nullopt
+                                       : std::optional(std::remainder(*east - *west, 360));
+}
+
+void add_ring(const DoubleMatrix& ring, Boundary& boundary) {
+  std::optional<double> turned = 0;
+  for (Eigen::Index i = 0; i < ring.cols(); ++i) {
+    const std::optional<double> turn =
+        add_arc(ring.col(i).normalized(), ring.col((i + 1) % ring.cols()).normalized(), boundary);
+    turned = turned && turn ? std::optional(*turned + *turn) : std::nullopt;
+  }
+  boundary.goes_round |= turned && std::abs(*turned) > 180;
 }
 
 /// The longitudes between the ends of the widest gap that has none of them.
@@ -48,22 +79,16 @@ std::array<double, 2> spanned(std::vector<double> longitudes) {
 }
 
 Extent extent_on_sphere(const Surface& surface) {
-  Extent extent{.y = {90, -90}};
-  std::vector<double> longitudes;
+  Boundary boundary;
   for (const DoubleMatrix& ring : surface.rings())
-    for (Eigen::Index i = 0; i < ring.cols(); ++i) {
-      const Eigen::Vector3d from = ring.col(i).normalized(),
-                            to = ring.col((i + 1) % ring.cols()).normalized();
-      take_latitudes(from, to, extent.y);
-      for (const Eigen::Vector3d& x : {from, Eigen::Vector3d((from + to).normalized())})
-        longitudes.push_back(to_lonlat(x)(0, 0));
+    add_ring(ring, boundary);
+  Extent extent{.y = boundary.latitudes, .all_around = boundary.goes_round};
+  for (const bool north : {false, true})
+    if (const double pole = north ? 1 : -1; surface.contains({0, 0, pole})) {
+      extent.y[north ? 1 : 0] = 90 * pole;
+      extent.all_around |= !boundary.at_pole[north ? 1 : 0]; // the boundary is a part of it
     }
-  for (const double pole : {-1.0, 1.0})
-    if (surface.contains({0, 0, pole})) {
-      extent.all_around = true;
-      extent.y[pole > 0 ? 1 : 0] = 90 * pole;
-    }
-  extent.x = spanned(std::move(longitudes));
+  extent.x = spanned(std::move(boundary.longitudes));
   return extent;
 }
 

@@ -12,7 +12,7 @@ namespace calotte::tools {
 /// or less than 360 degrees to the east of it; west may be greater than east.
 struct Extent {
   std::array<double, 2> x{}, y{}; ///< from, to
-  bool all_around = false;        ///< all longitudes: there is a pole inside
+  bool all_around = false;        ///< all longitudes: a ring or the region surrounds the axis
 };
 
 /// The extent of a bounded surface or of a box. \pre it is one of these.

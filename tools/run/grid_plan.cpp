@@ -15,8 +15,6 @@
 namespace calotte::tools {
 namespace {
 
-constexpr double per_radian = 180 / std::numbers::pi;
-
 /// Widths: on the whole sphere all quantities follow from their nodes.
 SpacingSurvey survey(const Schedule& schedule, std::int64_t cells, double factor,
                      const WidthWords& words, std::optional<double> limit) {
@@ -204,7 +202,7 @@ void add_widths(const GridPlan& plan, Json& json) {
   if (plan.radius_km)
     json["width_km"] = range(*plan.radius_km);
   if (plan.surface.is_sphere())
-    json["width_degrees"] = range(per_radian);
+    json["width_degrees"] = range(unit_of("degrees", {}).of_radian);
   const WidthGradient& steepest = plan.spacing.steepest;
   const bool sphere = plan.surface.is_sphere();
   json["gradient"] = {{"slope", steepest.slope},
