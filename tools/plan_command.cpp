@@ -96,9 +96,8 @@ std::optional<double> radius_of(const PlanRequest& request) {
     return *request.sphere_radius / metres_per_km;
   if (const ModelNeeds* const model = model_of(request.model))
     return model->planet_radius / metres_per_km;
-  return has_kilometres(request.run->part.region)
-             ? std::optional(request.run->density->widths.radius)
-             : std::nullopt;
+  return has_length(request.run->part.region) ? std::optional(request.run->density->widths.radius)
+                                              : std::nullopt;
 }
 
 Unit unit_for(const PlanRequest& request, const GridPlan& plan) {

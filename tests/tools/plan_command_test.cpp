@@ -256,6 +256,7 @@ TEST_CASE("a plan is in km where widths, a radius or a model give one, and says 
   CHECK(in_km("--sphere-radius earth"));
   CHECK(in_km("--cell-width 900km"));
   CHECK(in_km("--region circle=10,50,1500km"));
+  CHECK(in_km("--region circle=10,50,1500000m"));
   CHECK(!in_km("--region circle=10,50,20deg"));
   CHECK(!in_km("--cell-width 900km --units degrees"));
   CHECK(has(shown("--cells 642"), " MB; it fits into the "));

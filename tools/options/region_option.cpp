@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/region_option.h"
 
+#include "io/command.h"
 #include "options/numbers.h"
 #include "text/text.h"
 
@@ -11,7 +12,10 @@
 
 #include <boost/crc.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 namespace calotte::tools {
 namespace {
@@ -70,7 +74,7 @@ void require_region_words(const RegionWords& words) {
 }
 
 Surface region_of(const std::string& word, const std::string& inside, double radius_km) {
-  const auto named = [](const std::string& option, const auto& make) {
+  const auto of_option = [](const std::string& option, const auto& make) {
     try {
       return make();
     } catch (const Error& error) {
@@ -78,18 +82,23 @@ Surface region_of(const std::string& word, const std::string& inside, double rad
     }
   };
   const Surface region = region_file(word).empty()
-                             ? named("--region", [&] { return read_region(word, radius_km); })
+                             ? of_option("--region", [&] { return read_region(word, radius_km); })
                              : read_region(word, radius_km);
   if (inside.empty())
     return region;
   const Eigen::Vector3d point = point_inside(inside);
-  return named(message("--inside {}:", inside), [&] {
+  return of_option(message("--inside {}:", inside), [&] {
     return region_around({region.rings().begin(), region.rings().end()}, point);
   });
 }
 
-bool has_kilometres(const std::string& word) {
-  return region_file(word).empty() && word.find("km") != std::string::npos;
+bool has_length(const std::string& word) {
+  return region_file(word).empty() &&
+         std::ranges::any_of(split(std::string_view(word).substr(word.find('=') + 1), ','),
+                             [](const std::string& value) {
+                               const std::optional<Measure> measure = measure_of(value);
+                               return measure && (measure->unit == "km" || measure->unit == "m");
+                             });
 }
 
 std::string region_configuration(const Surface& region) {

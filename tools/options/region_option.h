@@ -38,8 +38,8 @@ void require_region_words(const RegionWords& words);
 Surface region_of(const std::string& word, const std::string& inside,
                   double radius_km = earth_radius_km);
 
-/// Whether the word has a length in km, as circle=10,50,1500km does.
-bool has_kilometres(const std::string& word);
+/// Whether the word has a length in km or m, as circle=10,50,1500km does.
+bool has_length(const std::string& word);
 
 /// A fingerprint of the corners, a line for a run's configuration.
 std::string region_configuration(const Surface& region);
