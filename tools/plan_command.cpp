@@ -138,7 +138,10 @@ GridPlan make_plan(const PlanRequest& request) {
 }
 
 /// The grid of --hexagons needs no run.
+/// \throws Error invalid_argument for files to write.
 void print_hexagons(const PlanRequest& request) {
+  if (!request.report.empty() || !request.picture.empty() || !request.raster.empty())
+    refuse("--hexagons needs no run; leave --report, --output and --raster out");
   const MeshFile file = hexagons_of(*request.run->domain);
   const std::int64_t cells = file.polygons ? file.polygons->size() : file.mesh->points.cols();
   std::cout << row("cells", 22, message("{} regular hexagons", cells));

@@ -274,6 +274,8 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
 -o widths.png --cells 11 | 2 | 11
 -o widths.png --cells 100 --sphere-radius 0 | 2 | --sphere-radius 0 is not a positive number; give one such as
 -o widths.png --cells 100 --for mpas-ocean --sphere-radius 1 | 2 | --for mpas-ocean needs a sphere with a radius of 6371220
+--hexagons 6,8,10 --report plan.json | 2 | --hexagons needs no run; leave --report, --output and --raster out
+--hexagons 6,8,10 -o widths.png | 2 | --hexagons needs no run; leave --report, --output and --raster out
 -o widths.png --cells 100 --rectangle 0,0,2,1 | 2 | -o draws widths on the sphere; leave it out for a plane
 --cells 100 --start fibonacci --seed 2 | 2 | --seed applies to the starts multilevel, continuation, random and density only
 -o widths.png --report plan.json --cell-width absent.nc | 3 | absent.nc
