@@ -132,6 +132,10 @@ TEST_CASE("a file's planet follows it through conversions, changes, cuts and unk
   CHECK(is_km("finer.nc"));
   check_success(bench, "cut widths.nc --region circle=0,0,3000km --rings 2 -o part.nc");
   CHECK(is_km("part.nc"));
+  CHECK(has(bench.file("part.nc"), "planet_radius"));
+  check_success(bench, "cut widths.nc --region circle=0,0,3000km --rings 2 --sphere-radius earth "
+                       "-o scaled.nc");
+  CHECK(!has(bench.file("scaled.nc"), "planet_radius")); // 6371 km, of the unit sphere
   check_success(bench, "convert widths.nc ocean.nc --for mpas-ocean");
   check_success(bench,
                 "cull ocean.nc --field latCell --sea-below 0 --for mpas-atmosphere -o sea.nc");

@@ -180,7 +180,9 @@ NetcdfSubset make_subset(const MpasSource& source, const MpasPart& part) {
 void set_sphere(const MpasSource& source, double radius, NetcdfSubset& subset) {
   subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
   subset.attributes["sphere_radius"] = {"sphere_radius", radius};
-  if (radius == 1 && source.radius() != 1)
+  if (radius != 1) // sphere_radius is the planet's
+    subset.attributes_left_out.emplace_back(planet_attribute);
+  else if (source.radius() != 1)
     subset.attributes[planet_attribute] = {planet_attribute, source.radius()};
 }
 

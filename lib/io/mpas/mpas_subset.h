@@ -20,8 +20,8 @@ NetcdfSubset make_subset(const MpasSource& source, const MpasPart& part);
 /// Number of values in a row of a variable, where the first dimension counts the rows.
 std::int64_t row_width(const NetcdfReader& source, int variable);
 
-/// Sets the attributes that describe the sphere, and on the unit sphere the planet of a source that
-/// is not on it.
+/// Sets the attributes that describe the sphere: on the unit sphere the planet of a source that is
+/// not on it, on others none besides the radius.
 void set_sphere(const MpasSource& source, double radius, NetcdfSubset& subset);
 
 /// Converts lengths, areas and all other values that depend on the radius of the sphere to another

@@ -210,10 +210,14 @@ NetcdfAttributes described_by(const std::string& units, const std::string& long_
   return {{"units", units}, {"long_name", long_name}};
 }
 
-/// Defines the attributes of the file: those of the source, some with a new value, then new ones.
+/// Defines the attributes of the file: those of the source without some, some with a new value,
+/// then new ones.
 void define_attributes(const NetcdfReader& source, const NetcdfSubset& subset, NetcdfWriter& file) {
   auto left = subset.attributes;
   for (const NetcdfAttribute& attribute : source.attributes()) {
+    if (std::ranges::find(subset.attributes_left_out, attribute.name) !=
+        subset.attributes_left_out.end())
+      continue;
     const auto replaced = left.find(attribute.name);
     file.attribute(replaced == left.end() ? attribute : replaced->second);
     if (replaced != left.end())

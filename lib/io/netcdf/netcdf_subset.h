@@ -55,6 +55,7 @@ struct NetcdfSubset {
   std::map<std::string, NetcdfAttribute> attributes = {}; ///< replace those of the source
   std::map<std::string, std::string> long_names = {};     ///< by variable
   std::vector<std::string> left_out = {};                 ///< names of variables
+  std::vector<std::string> attributes_left_out = {};      ///< names of those of the source
 
   /// A new variable with one integer for each item of a dimension.
   struct Added {
