@@ -27,8 +27,8 @@ struct Unit {
 
 /// The unit of a mesh of the sphere.
 /// \param units km, degrees or radians. Default: km where the radius is known, else degrees.
-/// \param radius_km of the sphere, if it is known, see MeshFile::planet_radius; > 0.
-/// \throws Error invalid_argument for another word, and for km without a radius.
+/// \param radius_km of the sphere, if it is known, see MeshFile::planet_radius; > 0 and finite.
+/// \throws Error invalid_argument for another word, for another radius, and for km without one.
 Unit unit_of(const std::optional<std::string>& units, std::optional<double> radius_km);
 
 /// Extremes and mean of a quantity; all 0 if there is nothing to measure.
@@ -163,7 +163,7 @@ struct BadShapes {
   std::int64_t short_edges = 0; ///< Voronoi edges below short_voronoi_edge times the Delaunay edge
 };
 
-/// Counts them; of a closed mesh of the sphere in a tenth of the time of quality(), without memory.
+/// Counts them, of a closed mesh of the sphere without the arrays of quality().
 /// \param mesh as of quality(), or open as of open_quality().
 /// \pre of a closed mesh of the sphere: unit columns, Delaunay.
 /// \throws Error as these.

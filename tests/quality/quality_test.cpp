@@ -307,9 +307,13 @@ TEST_CASE(
   CHECK(unit_of("degrees", 6371).of_radian == degrees.of_radian);
   CHECK(unit_of("radians", 6371).of_radian == 1);
   CHECK_THROWS_WITH_AS(unit_of("km", {}),
-                       "km require the radius of the sphere; give it, or the unit degrees", Error);
-  CHECK_THROWS_WITH_AS(unit_of("miles", 1), "the unit \"miles\" is not one of km, degrees, radians",
-                       Error);
+                       "km need the radius of the sphere; give it, or the unit degrees", Error);
+  CHECK_THROWS_WITH_AS(unit_of("miles", 1),
+                       "the unit \"miles\" is unknown; give km, degrees or radians", Error);
+  for (const double radius : {-1.0, 0.0, HUGE_VAL, std::nan("")})
+    CHECK_THROWS_AS(unit_of({}, radius), Error);
+  CHECK_THROWS_WITH_AS(unit_of("degrees", -1),
+                       "the radius of the sphere is -1 km; give a positive number", Error);
 }
 
 TEST_CASE("the icosahedron is perfect") {
