@@ -81,9 +81,16 @@ void run(CLI::App& app, int argc, char** argv) {
     std::cout << app.help();
 }
 
+/// Whether the command that was given has an option.
+bool has_option(const CLI::App& app, const std::string& option) {
+  return std::ranges::any_of(app.get_subcommands(), [&](const CLI::App* command) {
+    return command->get_option_no_throw(option) != nullptr;
+  });
+}
+
 /// The remedy where the file that cannot be read is a value without its option, or a unit that a
 /// blank separates from its number; "" for other files.
-std::string with_value(const std::string& text) {
+std::string with_value(const CLI::App& app, const std::string& text) {
   constexpr std::string_view start = "cannot read ";
   const std::string name =
       text.starts_with(start) ? text.substr(start.size(), text.find(':') - start.size()) : "";
@@ -91,11 +98,12 @@ std::string with_value(const std::string& text) {
     if (name == unit)
       return message("; a number and its unit are one word, such as 60{}", unit);
   const bool number = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
-  return number ? message("; a number of cells is --cells {}", name) : "";
+  return number && has_option(app, "--cells") ? message("; a number of cells is --cells {}", name)
+                                              : "";
 }
 
 /// A message of the library, with the option that is its remedy here.
-std::string with_option(const std::string& text) {
+std::string with_option(const CLI::App& app, const std::string& text) {
   static const std::vector<std::pair<std::string, std::string>> options{
       {"read them as longitude and latitude, or as places in a plane", " (--lonlat, --plane)"},
       {"read it as one of the plane", " (--plane)"},
@@ -108,7 +116,7 @@ std::string with_option(const std::string& text) {
   for (const auto& [remedy, option] : options)
     if (text.ends_with(remedy))
       return text + option;
-  return text + with_value(text);
+  return text + with_value(app, text);
 }
 
 /// The message about a command line that cannot be read. A misspelt option comes first: the option
@@ -145,7 +153,7 @@ ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
     return bad_input;
   } catch (const Error& error) {
     const bool bug = error.code() == ErrorCode::internal;
-    complain((bug ? "internal error, please report it: " : "") + with_option(error.what()));
+    complain((bug ? "internal error, please report it: " : "") + with_option(app, error.what()));
     return exit_code(error.code());
   } catch (const std::bad_alloc&) {
     complain(no_memory);

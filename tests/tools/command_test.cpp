@@ -51,6 +51,11 @@ absent.txt | 3 | cannot read absent.txt: No such file or directory; check its na
 . | 3 | cannot read .: it is a folder; give the name of a file
 - </dev/null | 2 | standard input: no points in 0 lines
 )");
+  const std::string no_file = "cannot read 1000: No such file or directory; check its name and its "
+                              "permissions\n"; // of commands without --cells
+  CHECK(bench.run("delaunay 1000 -o mesh.vtp").err == "calotte: " + no_file);
+  CHECK(bench.run("partition 1000 --parts 2").err == "calotte: " + no_file);
+  CHECK(bench.run("cut 1000 --region circle=0,0,9deg -o mesh.nc").err == "calotte: " + no_file);
 }
 
 TEST_CASE("sets that span no mesh are refused, and nothing is written") {

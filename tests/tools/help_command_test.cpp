@@ -203,6 +203,7 @@ cvtt --help | 2 | unknown command cvtt; did you mean cvt?
 grid | 2 | unknown command grid; see calotte help grid
 cvt --outside 300 -o mesh.vtp | 2 | unknown option --outside; did you mean --outside-width?
 cvt 642 -o mesh.vtp | 3 | check its name and its permissions; a number of cells is --cells 642
+plan 642 | 3 | a number of cells is --cells 642
 cvt --cell-width 60 km -o mesh.vtp | 3 | permissions; a number and its unit are one word, such as 60km
 ocean earth.nc | 2 | unknown command ocean; see calotte help ocean
 cvt --resolution 60km -o mesh.vtp | 2 | unknown option --resolution; see calotte help resolution
