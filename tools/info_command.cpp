@@ -220,11 +220,28 @@ std::string dimensions_of(const MeshField& field, const std::vector<FieldIndex>&
   return listed(names) + "; see --at";
 }
 
+/// Refuses the options of measures. \throws Error invalid_argument.
+void require_fields_alone(const InfoRequest& request) {
+  const std::vector<std::pair<const char*, bool>> of_measures{
+      {"--report", !request.report.empty()},
+      {"--operators", request.operators},
+      {"--units", request.units.has_value()},
+      {"--sphere-radius", request.sphere_radius.has_value()},
+      {"--density", !request.density->densities.empty()},
+      {"--cell-width", request.density->widths.given()},
+      {"--domain, --rectangle and --periodic", request.domain->given()}};
+  std::vector<std::string> given;
+  for (const auto& [option, is_given] : of_measures)
+    if (is_given)
+      given.emplace_back(option);
+  if (!given.empty())
+    refuse(message("--mesh and --at print fields, not measures; leave out {}", listed(given)));
+}
+
 /// The fields at cells, a line each: their ranges, or the dimensions that have several numbers.
 std::string field_table(const InfoRequest& request) {
   const MeshSource& source = *request.source;
-  if (!request.report.empty() || request.operators)
-    refuse("--mesh and --at print fields, without a report and operators; leave these out");
+  require_fields_alone(request);
   constexpr std::size_t column = 26;
   const FieldGrid grid = fields_of(source);
   std::string lines = source.at.empty() ? "" : row("indices", column, words_of(source.at));

@@ -105,7 +105,10 @@ history.nc --colour field:depth | 2 | history.nc
   check_refusals(bench, "info", R"(
 history.nc --mesh grid.nc --at lev=5 | 2 | lev=5 is out of range
 history.nc --mesh grid.nc --at x=5 | 2 | history.nc: no field has a dimension x; there are Time (3), nVertLevels (2)
-history.nc --mesh grid.nc --operators | 2 | --mesh and --at print fields
+history.nc --mesh grid.nc --operators | 2 | --mesh and --at print fields, not measures; leave out --operators
+history.nc --mesh grid.nc --units km --report a.json | 2 | not measures; leave out --report, --units
+grid.nc --at time=0 --sphere-radius earth --density x8 | 2 | not measures; leave out --sphere-radius, --density
+history.nc --mesh grid.nc --cell-width 60km | 2 | not measures; leave out --cell-width
 grid.nc --at x=5 | 2 | grid.nc: no field has a dimension x; leave it out
 )");
   check_refusals(bench, "view", R"(
