@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/coastlines_option.h"
 
-#include <calotte/widths.h>
+#include "options/sphere_radius_option.h"
 
 #include <CLI/App.hpp>
 
-#include <cmath>
 #include <cstdint>
 
 namespace calotte::tools {
@@ -15,11 +14,6 @@ void add_coastlines(CLI::App& command, std::optional<bool>& asked) {
       "--coastlines,!--no-coastlines", [&asked](std::int64_t count) { asked = count > 0; },
       "Draw the coastlines of the earth, or do not; default: draw them, unless a file or an "
       "option gives a radius that is not the earth's within 1%");
-}
-
-bool is_earth(double radius_km) {
-  constexpr double tolerance = 0.01; // models of the earth differ by less
-  return std::abs(radius_km - earth_radius_km) <= tolerance * earth_radius_km;
 }
 
 bool shows_coastlines(std::optional<bool> asked, std::optional<double> radius_km) {

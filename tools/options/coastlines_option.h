@@ -10,9 +10,6 @@ namespace calotte::tools {
 /// Adds --coastlines and --no-coastlines. \param asked what is given, if anything.
 void add_coastlines(CLI::App& command, std::optional<bool>& asked);
 
-/// Whether a radius is the earth's within 1%.
-bool is_earth(double radius_km);
-
 /// Whether a map of a sphere shows the coastlines of the earth. Default: unless the radius of the
 /// sphere is known and is not the earth's.
 bool shows_coastlines(std::optional<bool> asked, std::optional<double> radius_km);

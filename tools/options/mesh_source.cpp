@@ -2,7 +2,6 @@
 #include "options/mesh_source.h"
 
 #include "io/command.h"
-#include "options/coastlines_option.h"
 #include "options/format_options.h"
 #include "options/point_file.h"
 #include "options/sphere_radius_option.h"
