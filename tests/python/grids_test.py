@@ -231,7 +231,7 @@ def test_lengths_are_shown_in_km_where_the_planet_is_known(tmp_path):
         calotte.quality(points, units="km")
     with pytest.raises(calotte.Error, match="plane"):
         calotte.quality(plane, units="km")
-    with pytest.raises(calotte.Error, match="not one of km, degrees, radians"):
+    with pytest.raises(calotte.Error, match="give km, degrees or radians"):
         calotte.quality(points, units="miles")
     for name, mesh, options, radius in (
             ("a.nc", earth, {}, 6371), ("b.nc", points, {}, None), ("c.nc", mars, {"format": "ugrid"}, 3390),
@@ -308,6 +308,8 @@ def test_pictures(files, tmp_path):
         calotte.read(files / "ocean.nc").plot("salinity")
     with pytest.raises(calotte.Error, match="give a number, or an array of them, for each"):
         grid.plot(np.ones(3))
+    with pytest.raises(calotte.Error, match="the radius of the sphere is -1 km; give a positive number"):
+        grid.plot(earth_radius=-1)
     plt.close("all")
 
 
