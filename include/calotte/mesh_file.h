@@ -175,8 +175,9 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls);
 
 /// The chosen index of each dimension of a field, none where no choice is made. A choice belongs to
 /// the dimension of its name, in any case, or else to the only one whose name contains it: "lev" to
-/// nVertLevels. A choice that belongs to none has no effect. \throws Error invalid_argument for an
-/// index out of range, a name that several dimensions contain, and two choices of one dimension.
+/// nVertLevels. A choice that belongs to none has no effect.
+/// \throws Error invalid_argument for an index out of range, a name that several dimensions
+///         contain, and two choices of one dimension.
 std::vector<std::optional<std::int64_t>> find_indices(const std::vector<FieldDimension>& dimensions,
                                                       const std::vector<FieldIndex>& choices);
 
@@ -186,7 +187,8 @@ std::vector<std::optional<std::int64_t>> find_indices(const std::vector<FieldDim
 MeshField field_at(const MeshField& field, const std::vector<FieldIndex>& choices);
 
 /// Fields of one file at chosen indices: those that have such dimensions, and the others as they
-/// are. \throws Error as find_indices(); invalid_argument for a choice that belongs to no field.
+/// are.
+/// \throws Error as find_indices(); invalid_argument for a choice that belongs to no field.
 std::vector<MeshField> fields_at(std::vector<MeshField> fields,
                                  const std::vector<FieldIndex>& choices);
 

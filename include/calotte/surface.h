@@ -128,9 +128,9 @@ Surface channel(double lower, double upper, int corners = 360);
 /// cells lie along it, and at most 70 cm on the Earth.
 /// \param west, east longitudes, radians, finite; the box runs eastward from west to east, over the
 ///        date line if east < west. 2 pi apart they give the band between the parallels.
-/// \param south, north latitudes, radians, as for a channel(). A box up to a pole is a sector of
-/// its
-///        cap.
+/// \param south, north latitudes, radians, as for a channel(). Up to a pole the box is a sector
+///        of its cap.
+/// \returns the box; the corners of its rings are unit columns, counter-clockwise around it.
 /// \throws Error invalid_argument for a value out of range, a box without width, one wider than
 ///         2 pi, and for the whole sphere.
 Surface box(double west, double south, double east, double north);

@@ -18,7 +18,8 @@ namespace calotte::tools {
 ///   be in quotes.
 /// - Tables may group keys, one level deep; their names have no effect.
 /// - File names are relative to the folder of the TOML file. They are the values of options whose
-///   type_name ends in FILE; words before it, as in sample|fibonacci|FILE, and "-" are no files.
+///   type_name ends in FILE; words before it, as in sample|fibonacci|FILE, and "-" are no files. Of
+///   SHAPE|FILE it is the file that the word of a region names, by region_beside().
 ///
 /// \param others names of options of another command, whose files may hold them; they have no
 ///        effect.

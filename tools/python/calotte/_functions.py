@@ -761,6 +761,7 @@ def cvt(cells: int | None = None, *, density: DensityLike | None = None,
     regions: parts that run in parallel.
     progress: a function that receives a dict after each iteration and ends the run by returning
         True; or True for a bar of tqdm.
+    earth_radius: km, of the sphere that lengths in km and m refer to.
     Returns a Cvt. A run that does not converge is no error. Raises Error.
 
     >>> grid = cvt(642)
@@ -1049,7 +1050,7 @@ def random_points(n: int, surface: SurfaceLike | None = None, *,
                   density: DensityLike | None = None, seed: int = 1) -> Array:
     """Independent random points that follow a density: n x 3 unit vectors, in a plane n x 2.
 
-    surface, density: as for cvt().
+    surface, density: as for cvt(). seed: of the random numbers; the same one gives the same points.
 
     >>> random_points(3).shape, random_points(3, rectangle((0, 0), (2, 1))).shape
     ((3, 3), (3, 2))
@@ -1129,7 +1130,9 @@ def circle(centre: ArrayLike, radius: float | str, corners: int = 360, *,
            earth_radius: float = EARTH_RADIUS_KM) -> Surface:
     """The region around a centre (longitude and latitude in degrees, or a vector).
 
-    radius: degrees, or text with a unit: "1000km", "500000m", "10deg". earth_radius: km, for these.
+    radius: degrees, or text with a unit: "1000km", "500000m", "10deg".
+    corners: number of the ring's corners, which lie on the circle.
+    earth_radius: km, of the sphere that lengths in km and m refer to.
 
     >>> round(circle((-105, 40), 10).area, 3), round(circle((-105, 40), "1000km").area, 3)
     (0.095, 0.077)
@@ -1143,8 +1146,8 @@ def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
             earth_radius: float = EARTH_RADIUS_KM) -> Surface:
     """The region in an ellipse.
 
-    semi_major, semi_minor: as the radius of circle(). bearing: of the major axis, degrees clockwise
-    from north.
+    centre, corners, earth_radius: as for circle(). semi_major, semi_minor: as its radius.
+    bearing: of the major axis, degrees clockwise from north.
     """
     if not math.isfinite(bearing):
         raise Error(f"the bearing of the ellipse is {bearing!r}; give degrees clockwise from north")
@@ -1158,7 +1161,10 @@ def ellipse(centre: ArrayLike, semi_major: float | str, semi_minor: float | str,
 
 
 def channel(lower: float, upper: float, corners: int = 360) -> Surface:
-    """The region between two latitudes in degrees."""
+    """The region between two latitudes in degrees.
+
+    corners: of the ring along each of them, a pole excepted.
+    """
     return _calotte.channel(*_arguments.latitudes(lower, upper, "the channel's latitudes"), corners)
 
 
@@ -1339,7 +1345,8 @@ def cut(source: Path, target: Path, surface: SurfaceLike, *, rings: int = 7,
         sphere_radius: float | None = 1.0, model: str | None = None) -> dict[str, Any]:
     """Cuts a limited-area grid out of an MPAS file; all fields go along. Returns a dict of counts.
 
-    surface: as for cvt(). sphere_radius: of the new file; None keeps that of the source.
+    surface: as for cvt(). rings: of boundary cells around the region.
+    sphere_radius: of the new file; None keeps that of the source.
     model: as for write(); its radius replaces sphere_radius. Default: MPAS-Atmosphere, or with
         sphere_radius None the order of the source.
     """
@@ -1352,7 +1359,8 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
                  **options: Any) -> dict[str, Any]:
     """Makes a limited-area grid: the cells of a region with seven rings of boundary cells around it.
 
-    surface, cell_width: as for cvt(). sphere_radius: of the MPAS file; the model expects 1.
+    surface, cell_width, earth_radius: as for cvt().
+    sphere_radius: of the MPAS file; the model expects 1.
     options: other arguments of cvt(), such as fixed, seed and progress.
     Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
     """
@@ -1389,7 +1397,7 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     and latitude of the middle of each.
 
     land: GeoJSON of land, or a binned file of GSHHG; one or several. coast: an older name of it.
-    least_area: of the islands and lakes of the land that count, km2 on the Earth.
+    least_area: of the islands and lakes of the land that count, km^2 on the Earth.
     raster: a NetCDF raster of latitudes and longitudes, whose raster_values are "height" (below 0 is
         sea), "sea-fraction" or "land-fraction"; raster_variable: its variable, of a file with several.
     land_fraction: cells with a larger fraction of land are land.

@@ -61,7 +61,7 @@ def by_distance(lines, near=None, far=None, over=None, *, profile=None, smooth=F
     profile: pairs of a distance and a width; with a file of polygons or a coast, negative distances
         are on land. smooth: as for by_latitude().
     side: "sea" or "land" of such a file, for a rule that says nothing on the other side.
-    least_area: of the islands and lakes of such a file that count, km2 on the Earth.
+    least_area: of the islands and lakes of such a file that count, km^2 on the Earth.
     surface: a plane, whose lines are n x 2, or a file of x and y, .geojson or .txt; distances are
         straight. Default: the sphere.
     """
@@ -119,7 +119,7 @@ def by_channel(coast, least, *, cells, widest=500, least_area=0):
     """Widths of which so many cells lie across each channel and strait; elsewhere the rule says nothing.
 
     coast: a file of polygons, GeoJSON or GSHHG's .nc. least: the width in channels narrower than so many.
-    widest: of the channels that count, km. least_area: of the islands and lakes that count, km2 on the Earth.
+    widest: of the channels that count, km. least_area: of the islands and lakes that count, km^2 on the Earth.
     """
     return _calotte.widths_by_channel(str(coast), cells, least, widest, least_area)
 
