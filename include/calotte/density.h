@@ -52,20 +52,6 @@ struct Density {
   /// cell.
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
-  /// The density at one point: a unit vector, in the plane (x, y, 0).
-  using PointFunction = std::function<double(const Eigen::Vector3d& x)>;
-
-  Density() = default;
-  /// The density of a function, which asks for the conditions of Callable: many threads call it at
-  /// once, so that it must not write to what they share. What it throws ends the call that needs
-  /// the density. Its values are densities, not widths: for cells of the width w(x) let it return
-  /// w(x)^(-4), up to a factor.
-  ///
-  ///     const Density finer_in_the_north([](const Eigen::Vector3d& x) { return x.z() > 0 ? 16 : 1;
-  ///     });
-  ///
-  /// \throws Error invalid_argument for an empty function.
-  explicit Density(PointFunction rho);
 
   Kind kind = Kind::uniform; ///< what determines the density
   std::vector<DensityBump> bumps =
@@ -84,6 +70,18 @@ struct Density {
 /// \param beta, alpha radians, > 0.
 /// \param gamma in (0, 1). Functions that use the density throw for values out of range.
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma);
+
+/// The density of a function of one point.
+///
+///     const Density finer_in_the_north =
+///         density_of([](const Eigen::Vector3d& x) { return x.z() > 0 ? 16. : 1.; });
+///
+/// \param rho the density at a unit vector, in the plane at (x, y, 0), as Density::Callable
+///        demands: many threads call it at once, so that it must not write to what they share. What
+///        it throws ends the call that needs the density. Its values are densities, not widths: for
+///        cells of the width w(x) let it return w(x)^(-4), up to a factor.
+/// \throws Error invalid_argument for an empty function.
+Density density_of(std::function<double(const Eigen::Vector3d& x)> rho);
 
 /// The density of the generators of an optimal CVT with many cells: rho^(1/2); uniform for uniform
 /// density. Random starts should follow it. (In d dimensions rho^(d/(d+2)); Gersho, IEEE Trans.

@@ -206,14 +206,17 @@ void DensityEvaluator::call(std::span<const double> x, std::span<const double> y
 
 } // namespace density_detail
 
-Density::Density(PointFunction rho) : kind(Kind::callable) {
+Density density_of(std::function<double(const Eigen::Vector3d& x)> rho) {
   if (!rho)
     base_detail::refuse("the function of a density is empty; give one");
-  callable = [rho = std::move(rho)](const Eigen::Ref<const Points3>& x,
-                                    Eigen::Ref<Eigen::VectorXd> values) {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [rho = std::move(rho)](const Eigen::Ref<const Points3>& x,
+                                            Eigen::Ref<Eigen::VectorXd> values) {
     for (Eigen::Index j = 0; j < x.cols(); ++j)
       values[j] = rho(x.col(j));
   };
+  return density;
 }
 
 Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, double gamma) {

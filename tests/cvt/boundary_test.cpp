@@ -204,7 +204,7 @@ TEST_CASE("boundary: in the plane the mesh fills the domain to its corners [slow
     recipe.cells = 1500;
     if (graded)
       recipe.resolution =
-          Density([](const Eigen::Vector3d& x) { return std::pow(1 + x.squaredNorm(), -4); });
+          density_of([](const Eigen::Vector3d& x) { return std::pow(1 + x.squaredNorm(), -4); });
     const Schedule schedule = plan(recipe);
     const Cvt grid = make_grid(schedule);
     const Mesh& mesh = grid.mesh;

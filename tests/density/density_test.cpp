@@ -14,6 +14,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 using namespace calotte;
@@ -275,14 +276,20 @@ TEST_CASE("the sites' density is the root of the density") {
   CHECK(site_density(Density{}).uniform());
 }
 
+TEST_CASE("a density is an open struct") {
+  static_assert(std::is_aggregate_v<Density>);
+  const Density two{.kind = Density::Kind::sum, .bumps = {DensityBump{}, DensityBump{}}};
+  CHECK(evaluate(two, Points3(Eigen::Vector3d(0, 0, 1)))[0] > 1);
+}
+
 TEST_CASE("a function of a point is a density, and what it throws ends the call") {
   const Points3 x = random_sphere(1000, 5);
-  const Density density([](const Eigen::Vector3d& at) { return 1 + at.z() * at.z(); });
+  const Density density = density_of([](const Eigen::Vector3d& at) { return 1 + at.z() * at.z(); });
   CHECK(evaluate(density, x) == (1 + x.row(2).array().square()).matrix().transpose());
-  const Density faulty([](const Eigen::Vector3d& at) { return at.z(); });
+  const Density faulty = density_of([](const Eigen::Vector3d& at) { return at.z(); });
   CHECK(message_of(faulty).find("somewhere") != std::string::npos);
-  const Density throwing([](const Eigen::Vector3d&) -> double { throw std::out_of_range("here"); });
+  const Density throwing =
+      density_of([](const Eigen::Vector3d&) -> double { throw std::out_of_range("here"); });
   CHECK_THROWS_AS(evaluate(throwing, x), std::out_of_range);
-  CHECK_THROWS_WITH_AS(Density(Density::PointFunction()),
-                       "the function of a density is empty; give one", Error);
+  CHECK_THROWS_WITH_AS(density_of(nullptr), "the function of a density is empty; give one", Error);
 }

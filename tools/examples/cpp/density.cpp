@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
 
   // Widths are proportional to rho^(-1/4): here twice as wide at the poles as at the equator. Many
   // threads call the function at once.
-  const calotte::Density density([](const Eigen::Vector3d& x) {
+  const calotte::Density density = calotte::density_of([](const Eigen::Vector3d& x) {
     const double root = 1 + 3 * x.z() * x.z();
     return 1 / (root * root);
   });
