@@ -64,17 +64,6 @@ void require_request(const CullRequest& request) {
                   request.inputs());
 }
 
-/// All polygons of several files.
-Coast coast_of(const CullRequest& request) {
-  Coast all;
-  for (const std::string& file : request.land) {
-    const Coast coast = read_coast(file);
-    all.area += coast.area;
-    all.rings.insert(all.rings.end(), coast.rings.begin(), coast.rings.end());
-  }
-  return without_small(all, request.least_area / (earth_radius_km * earth_radius_km));
-}
-
 std::vector<Points3> read_all_lines(const std::vector<std::string>& files) {
   std::vector<Points3> all;
   for (const std::string& file : files) {
@@ -103,7 +92,7 @@ std::vector<FieldDimension> dimensions_of(const CullRequest& request) {
 
 CullOptions options_of(const CullRequest& request) {
   CullOptions options;
-  options.coast = coast_of(request);
+  options.coast = without_small(read_coasts(request.land), request.least_area, earth_radius_km);
   if (!request.raster.empty())
     options.raster = read_land(request.raster, request.raster_variable, request.raster_values);
   options.land_fraction = request.land_fraction;

@@ -29,11 +29,11 @@ std::vector<Points3> shores(const Coast& coast);
 
 /// The coast without the islands and the lakes that are smaller than an area, and without what lies
 /// in these: its closed lines, see shores(), that have less on one side are left out.
-/// \param least_area steradians, >= 0; less is left out. Default of callers: 0, which changes
-///        nothing.
+/// \param least_area km^2, >= 0; less is left out. 0 changes nothing.
+/// \param radius_km of the sphere that the area refers to, > 0; 1 for an area in steradians.
 /// \throws Error invalid_argument for an area that is negative or not finite, for one that leaves
-///         nothing, and as shores().
-Coast without_small(const Coast& coast, double least_area);
+///         nothing, for a radius that is not positive and finite, and as shores().
+Coast without_small(const Coast& coast, double least_area, double radius_km);
 
 /// The land around a point, such as an island with its lakes: the smallest left side of a ring that
 /// contains it, without the loops in which a simplified coast crosses itself.

@@ -156,6 +156,10 @@ Points3 read_sites(const std::string& path);
 /// \throws Error parse, naming the feature or the variable; file.
 Coast read_coast(const std::string& path);
 
+/// Reads areas of land from several files, which must not overlap.
+/// \throws Error as read_coast().
+Coast read_coasts(const std::vector<std::string>& paths);
+
 /// The quantity of a raster's values.
 enum class RasterQuantity {
   any,           ///< as the file has them

@@ -37,18 +37,21 @@ std::vector<std::vector<Arc>> lines_of(const Coast& coast) {
 
 } // namespace
 
-Coast without_small(const Coast& coast, double least_area) {
+Coast without_small(const Coast& coast, double least_area, double radius_km) {
   require(least_area >= 0 && std::isfinite(least_area),
           "the least area of islands and lakes is {}; give 0 or more", least_area);
+  require(radius_km > 0 && std::isfinite(radius_km),
+          "the radius of the sphere of islands and lakes is {}; give it in km, above 0", radius_km);
   if (least_area == 0)
     return coast;
   constexpr double sphere = 4 * std::numbers::pi;
+  const double least = least_area / (radius_km * radius_km); // steradians
   Coast large{.rings = {}, .area = coast.area};
   for (const std::vector<Arc>& line : lines_of(coast)) {
     const double left = domain_detail::area_to_the_left(line), right = sphere - left;
-    if (left < least_area)
+    if (left < least)
       large.area -= left;
-    else if (right < least_area)
+    else if (right < least)
       large.area += right;
     else
       large.rings.push_back(ring_of(line));

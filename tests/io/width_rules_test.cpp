@@ -181,8 +181,7 @@ TEST_CASE("islands and lakes below the least area of a rule do not count") {
       [[[[-9, -5], [-1, -5], [-1, 5], [-9, -5]]], [[[50, 5], [50.1, 5], [50.1, 5.1], [50, 5]]]]})");
   const std::string grows = "near = 10\nfar = 60\nover = 600\n",
                     few = "by-distance = \"few.geojson\"\n";
-  const Coast large = without_small(read_coast(rules.beside("few.geojson")),
-                                    1000 / (earth_radius_km * earth_radius_km));
+  const Coast large = without_small(read_coast(rules.beside("few.geojson")), 1000, earth_radius_km);
   CHECK(large.rings.size() == 1);
   const WidthProfile profile{{{0, 10}, {600, 60}}};
   CHECK(rules.widths(few + grows + "least-area = 1000") ==

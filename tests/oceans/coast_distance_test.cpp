@@ -79,19 +79,21 @@ TEST_CASE("a coast without what is small: islands, lakes, and what lies in these
                                                              {6, 3, all + cap(4) - cap(5)},
                                                              {9, 2, cap(50) - cap(10)},
                                                              {12, 1, cap(50)}}) {
-    const Coast large = without_small(coast, radius == 0 ? 0 : cap(radius));
+    const Coast large = without_small(coast, radius == 0 ? 0 : 4 * cap(radius), 2);
     CAPTURE(radius);
     CHECK(large.rings.size() == rings);
     CHECK(large.area == doctest::Approx(area).epsilon(1e-12));
   }
-  CHECK(message_of([&] { without_small(coast, cap(60)); }) ==
+  CHECK(message_of([&] { without_small(coast, cap(60), 1); }) ==
         "all land of the coast is smaller than the least area; give a smaller one");
-  CHECK(message_of([&] { without_small(coast, -1); }) ==
+  CHECK(message_of([&] { without_small(coast, -1, 1); }) ==
         "the least area of islands and lakes is -1; give 0 or more");
+  CHECK(message_of([&] { without_small(coast, 1, 0); }) ==
+        "the radius of the sphere of islands and lakes is 0; give it in km, above 0");
 }
 
 TEST_CASE("the lines of GSHHG without islands below 10000 km2 sum to the area that is left") {
-  const Coast all = gshhg('c'), large = without_small(all, 1e4 / (6371.0 * 6371.0));
+  const Coast all = gshhg('c'), large = without_small(all, 1e4, earth_radius_km);
   CHECK(large.rings.size() < all.rings.size() / 2);
   CHECK(large.rings.size() > 30);
   CHECK(large.area < all.area);

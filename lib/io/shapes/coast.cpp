@@ -66,4 +66,14 @@ Coast read_coast(const std::string& path) {
   return coast;
 }
 
+Coast read_coasts(const std::vector<std::string>& paths) {
+  Coast all;
+  for (const std::string& path : paths) {
+    const Coast coast = read_coast(path);
+    all.area += coast.area;
+    all.rings.insert(all.rings.end(), coast.rings.begin(), coast.rings.end());
+  }
+  return all;
+}
+
 } // namespace calotte

@@ -261,9 +261,8 @@ private:
   /// Reads a coast, without what is smaller than the area that the rule gives.
   Coast coast(RuleTable& table, const std::string& path) const {
     const Coast whole = read_coast(path);
-    return table.takes("least-area")
-               ? without_small(whole, table.number("least-area") / (radius_km_ * radius_km_))
-               : whole;
+    return table.takes("least-area") ? without_small(whole, table.number("least-area"), radius_km_)
+                                     : whole;
   }
 
   static WidthProfile growing(RuleTable& table) {

@@ -212,13 +212,7 @@ Land land_of(const py::dict& words) {
 }
 
 void set_land(const Land& land, CullOptions& options) {
-  for (const std::string& file : land.land) {
-    const Coast coast = read_coast(file);
-    options.coast.area += coast.area;
-    options.coast.rings.insert(options.coast.rings.end(), coast.rings.begin(), coast.rings.end());
-  }
-  options.coast =
-      without_small(options.coast, land.least_area / (earth_radius_km * earth_radius_km));
+  options.coast = without_small(read_coasts(land.land), land.least_area, earth_radius_km);
   const auto add_lines = [](const std::vector<std::string>& files, std::vector<Points3>& lines) {
     for (const std::string& file : files)
       for (Points3& line : read_lines(file))

@@ -43,7 +43,7 @@ Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool
 
 /// \param least_area of the islands and lakes that count, km^2 on the Earth.
 Coast coast_in(const std::string& path, double least_area) {
-  return without_small(read_coast(path), least_area / (earth_radius_km * earth_radius_km));
+  return without_small(read_coast(path), least_area, earth_radius_km);
 }
 
 /// \param side both, sea or land; "" for distances without a sign.
