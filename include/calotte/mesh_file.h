@@ -224,6 +224,12 @@ enum class FieldChoice {
 MeshFile read_mesh_file(const std::string& path, const Points3* points = nullptr,
                         FieldChoice choice = FieldChoice::all);
 
+/// Reads a mesh file with the fields at chosen indices, see fields_at().
+/// \param choice of the fields at these indices; the choices have no effect with none.
+/// \throws Error as above, and as fields_at() with the file's name.
+MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldChoice choice,
+                        const std::vector<FieldIndex>& choices);
+
 /// The part of a plane that a file covers: its mesh's surface if that is bounded or a box, or the
 /// part that its cells fill, provided that they are the Voronoi cells that this part clips.
 /// \returns none for other files, where boundaries touch, and for channels.

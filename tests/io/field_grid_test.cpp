@@ -2,6 +2,7 @@
 #include "support/constants.h"
 #include "support/files.h"
 
+#include "io/cells/netcdf_fields.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "support/text.h"
 
@@ -15,8 +16,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -220,6 +224,46 @@ TEST_CASE("indices of dimensions choose one number for each cell") {
   CHECK_THROWS_AS(read_cell_field(path, "flat", 100, indices), Error);
   CHECK_THROWS_AS(fields_at({flat}, indices), Error);
   CHECK(fields_at({field, flat}, indices)[0].values == found.fields[0].values);
+  const std::string both = in_folder(scratch, "both.nc");
+  write(both, delaunay(fibonacci_sphere(100)), {.fields = {field, flat}});
+  const auto at = [&](FieldChoice choice, const std::vector<FieldIndex>& choices) {
+    return read_mesh_file(both, nullptr, choice, choices);
+  };
+  const MeshFile one = at(FieldChoice::scalars, indices),
+                 time_only = at(FieldChoice::scalars, {{"time", 1}});
+  const auto named_t = [](const MeshField& each) { return each.name == "t"; };
+  const auto t = std::ranges::find_if(one.fields, named_t);
+  REQUIRE(t != one.fields.end());
+  CHECK(t->values == field_at(read_mesh_file(both).fields.front(), indices).values);
+  CHECK(std::ranges::none_of(time_only.fields, named_t));
+  CHECK(std::ranges::find(time_only.ignored, "t") != time_only.ignored.end());
+  CHECK(error_of([&] {
+          at(FieldChoice::scalars, {{"x", 0}});
+        }).what() == both + ": no field has a dimension x; leave it out");
+}
+
+TEST_CASE("an index of a dimension between those of the cells") {
+  const Scratch scratch;
+  const std::string path = in_folder(scratch, "between.nc");
+  NetcdfWriter writer(path);
+  const int lon = writer.dimension("lon", 3), time = writer.dimension("time", 2),
+            lat = writer.dimension("lat", 4),
+            f = writer.variable("f", NetcdfType::float64, {lon, time, lat});
+  writer.begin();
+  writer.put(f, [](std::int64_t begin, std::int64_t end, double* out) {
+    std::iota(out, out + (end - begin) * 8, static_cast<double>(begin) * 8);
+  });
+  writer.finish();
+  writer.commit();
+  std::vector<MeshField> fields;
+  std::vector<std::string> ignored;
+  calotte::io_detail::read_fields_on(calotte::io_detail::NetcdfReader(path), {"lat", "lon"}, {},
+                                     FieldChoice::scalars, fields, ignored, {{"time", 1}});
+  REQUIRE(fields.size() == 1);
+  REQUIRE(fields[0].values.size() == 12);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 3; ++i)
+      CHECK(fields[0].values[3 * j + i] == 8 * i + 4 + j);
 }
 
 TEST_CASE("methods between meshes and rasters of the sphere") {

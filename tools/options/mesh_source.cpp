@@ -73,32 +73,22 @@ MeshFile read_fields_of(const MeshSource& source, FieldChoice choice) {
 
 } // namespace
 
-MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice) {
+MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice,
+                         const std::vector<FieldIndex>& choices) {
   std::optional<Points3> points;
   if (!source.points.empty())
     points = source.plane ? read_planar_point_file(source.points).points
                           : read_point_file(source.points, source.lonlat).points;
-  MeshFile file = calotte::read_mesh_file(source.mesh_path(), points ? &*points : nullptr, choice);
+  MeshFile file =
+      calotte::read_mesh_file(source.mesh_path(), points ? &*points : nullptr, choice, choices);
   require_surface(source, file);
   return file;
 }
 
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
-  if (choice == FieldChoice::none || (source.mesh.empty() && source.at.empty()))
-    return read_mesh_alone(source, choice);
-  if (!source.mesh.empty())
-    return read_fields_of(source, choice);
-  MeshFile file = read_mesh_alone(source, FieldChoice::all);
-  file.fields =
-      io_detail::named(source.path, [&] { return fields_at(std::move(file.fields), source.at); });
-  const auto has_several = [&](const MeshField& field) {
-    return choice == FieldChoice::scalars && field.count() > 1;
-  };
-  for (const MeshField& field : file.fields)
-    if (has_several(field))
-      file.ignored.push_back(field.name);
-  std::erase_if(file.fields, has_several);
-  return file;
+  return choice == FieldChoice::none || source.mesh.empty()
+             ? read_mesh_alone(source, choice, source.at)
+             : read_fields_of(source, choice);
 }
 
 std::string words_of(const std::vector<FieldIndex>& indices) {

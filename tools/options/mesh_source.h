@@ -40,9 +40,11 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 void add_fields_of(CLI::App& command, MeshSource& source);
 
 /// The mesh alone, and the fields of its own file.
+/// \param choices indices of its fields. Default: none.
 /// \throws Error as read_mesh_file and read_points do; invalid_argument, with --plane, for a mesh
 ///         of the sphere.
-MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice);
+MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice,
+                         const std::vector<FieldIndex>& choices = {});
 
 /// The mesh and the fields of MESH, at the indices of --at.
 /// \throws Error as above, and as read_field_grid() and find_indices().

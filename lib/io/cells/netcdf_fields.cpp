@@ -149,7 +149,8 @@ void read_values(const NetcdfReader& file, const std::vector<std::size_t>& of_lo
   std::vector<std::int64_t> shape = file.shape_of(field.name);
   field.long_name = file.text(field.name, "long_name");
   field.units = file.text(field.name, "units");
-  if (!indices.empty() && indices[0] && of_location.front() > 0) { // of its first dimension
+  const bool first_is_other = std::ranges::find(of_location, 0U) == of_location.end();
+  if (!indices.empty() && indices[0] && first_is_other) {
     const std::vector<double> row = cf_row(file, field.name, *indices[0]);
     shape[0] = field.dimensions[0].size = 1;
     indices[0] = 0;

@@ -35,7 +35,7 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
 /// over these dimensions, the last one fastest. Other dimensions may be in any position.
 /// \param no_fields variables that are neither read nor listed.
 /// \param ignored receives the names of the other variables.
-/// \param indices choices for those fields that have such a dimension; of the first dimension of a
+/// \param choices indices for those fields that have such a dimension; of the first dimension of a
 ///        variable only that index is read.
 /// \param not_scalars receives, if it is given, the fields with several numbers for each cell that
 ///        FieldChoice::scalars leaves out, without values; they are not among the ignored.
@@ -44,7 +44,7 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
 void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
                     const std::set<std::string>& no_fields, FieldChoice choice,
                     std::vector<MeshField>& fields, std::vector<std::string>& ignored,
-                    const std::vector<FieldIndex>& indices = {},
+                    const std::vector<FieldIndex>& choices = {},
                     std::vector<MeshField>* not_scalars = nullptr);
 
 /// Reads a variable as a field of cells at chosen indices.
@@ -52,6 +52,6 @@ void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& di
 /// \throws Error parse, file; invalid_argument as field_at(), and unless one number is left for
 ///         each cell.
 MeshField read_field_at(const NetcdfReader& file, const std::string& name, std::size_t of_cells,
-                        const std::vector<FieldIndex>& indices);
+                        const std::vector<FieldIndex>& choices);
 
 } // namespace calotte::io_detail

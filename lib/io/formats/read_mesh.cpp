@@ -20,6 +20,8 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace calotte {
 namespace {
@@ -142,6 +144,22 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
   MeshFile file =
       make_mesh_file_on_points(path, *points, get_triangles_text(in, path, points->cols()));
   file.planet_radius = find_planet(file, Format::triangles, nullptr);
+  return file;
+}
+
+MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldChoice choice,
+                        const std::vector<FieldIndex>& choices) {
+  if (choices.empty() || choice == FieldChoice::none)
+    return read_mesh_file(path, points, choice);
+  MeshFile file = read_mesh_file(path, points, FieldChoice::all);
+  file.fields = named(path, [&] { return fields_at(std::move(file.fields), choices); });
+  const auto has_several = [&](const MeshField& field) {
+    return choice == FieldChoice::scalars && field.count() > 1;
+  };
+  for (const MeshField& field : file.fields)
+    if (has_several(field))
+      file.ignored.push_back(field.name);
+  std::erase_if(file.fields, has_several);
   return file;
 }
 

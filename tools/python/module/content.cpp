@@ -42,16 +42,8 @@ std::vector<FieldIndex> indices_of(const Choices& choices) {
 /// \param mesh the file of the mesh, if that is not `path`; or "".
 MeshFile read_file(const std::string& path, FieldChoice choice, const std::string& mesh,
                    const std::vector<FieldIndex>& at) {
-  if (mesh.empty() && at.empty())
-    return read_mesh_file(path, nullptr, choice);
-  if (mesh.empty()) {
-    MeshFile file = read_mesh_file(path, nullptr, FieldChoice::all);
-    file.fields = fields_at(std::move(file.fields), at);
-    std::erase_if(file.fields, [&](const MeshField& field) {
-      return choice == FieldChoice::none || (choice == FieldChoice::scalars && field.count() > 1);
-    });
-    return file;
-  }
+  if (mesh.empty())
+    return read_mesh_file(path, nullptr, choice, at);
   FieldGrid grid = read_field_grid(path, mesh, choice, at);
   MeshFile file = std::move(grid.mesh);
   file.fields = std::move(grid.fields);
