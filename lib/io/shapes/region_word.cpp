@@ -186,7 +186,7 @@ std::string region_beside(const std::string& folder, const std::string& word) {
   if (std::error_code error; std::filesystem::exists(beside, error))
     return beside.string();
   const std::string file = region_file(word);
-  const std::size_t at = word.find(file); // behind "land=", if that is the shape
+  const std::size_t at = shape_of(word) != nullptr ? word.find('=') + 1 : 0;
   return file.empty() ? word
                       : word.substr(0, at) + (std::filesystem::path(folder) / file).string() +
                             word.substr(at + file.size());

@@ -202,6 +202,9 @@ TEST_CASE("file names are relative to the folder of the file of options") {
   CHECK(area.region == area.in_folder("area.geojson"));
   land.parse("region = \"land=coast.nc,1,2\"\n");
   CHECK(land.region == "land=" + land.in_folder("coast.nc") + ",1,2");
+  Parser named_land; // as its shape
+  named_land.parse("region = \"land=land,1,2\"\n");
+  CHECK(named_land.region == "land=" + named_land.in_folder("land") + ",1,2");
   Parser overridden;
   overridden.parse("points = \"points.txt\"\n", "there.txt");
   CHECK(overridden.points == "there.txt");
