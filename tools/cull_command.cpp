@@ -122,14 +122,16 @@ CullOptions options_of(const CullRequest& request) {
 /// The largest parts of the sea that are left out, a line for each.
 std::string severed_parts(const CullReport& report) {
   std::string lines;
+  std::int64_t cells = 0;
   for (std::size_t k = 0; k < report.sea.severed_parts.size(); ++k) {
+    cells += report.sea.severed_parts[k].cells;
     const Points2 at = to_lonlat(report.severed.col(static_cast<Eigen::Index>(k)));
     lines += row("  around " + lonlat_words(at(0, 0), at(1, 0)), 28,
                  message("{}", report.sea.severed_parts[k].cells));
   }
-  if (const auto parts = std::ssize(report.sea.severed_parts); parts > 0)
-    lines += message("{}--passage connects a part, --seed selects parts by places in them\n",
-                     report.sea.parts - parts > 1 ? "  and others; " : "  ");
+  if (!report.sea.severed_parts.empty())
+    lines += message("{}--passage connects a part, --seed selects parts by points in them\n",
+                     cells < report.sea.severed ? "  and others; " : "  ");
   return lines;
 }
 
@@ -270,7 +272,7 @@ void add_sea(CLI::App& command, CullRequest& request) {
       ->type_name("FILE");
   command
       .add_option("--seed", request.seeds,
-                  "Place in the sea, in degrees. The grid holds what is connected with a seed. May "
+                  "Point in the sea, in degrees. The grid holds what is connected with a seed. May "
                   "be repeated. Default: the largest part of the sea.")
       ->type_name("LON,LAT");
   command.add_flag("--no-fill", request.no_fill,

@@ -482,12 +482,19 @@ TEST_CASE("cull prints the seas that it leaves out, and passages of the world co
   const Outcome parted = bench.run(land);
   CHECK(parted.code == 0);
   CHECK(has(parted.out, "\n  around 39.5 E 18.0 N      4\n")); // the Red Sea
-  CHECK(has(parted.out, "\n  --passage connects a part, --seed selects parts by places in them\n"));
+  CHECK(has(parted.out, "\n  --passage connects a part, --seed selects parts by points in them\n"));
   const Outcome joined = bench.run(land + "--passage " + examples + "passages.geojson --barrier " +
                                    examples + "barriers.geojson --least-area 10000km2");
   CHECK(joined.code == 0);
   CHECK(has(joined.out, "\ncells in parts left out     0\n"));
   CHECK(!has(joined.out, "around"));
+  bench.file("bands.geojson", R"({"type": "MultiPolygon", "coordinates":
+      [[[[-180, -5], [-60, -5], [60, -5], [180, -5], [180, 5], [60, 5], [-60, 5], [-180, 5], [-180, -5]]],
+       [[[-180, 60], [-60, 60], [60, 60], [180, 60], [180, 65], [60, 65], [-60, 65], [-180, 65], [-180, 60]]]]})");
+  const Outcome one_left =
+      bench.run("cull earth.nc --land bands.geojson -o ocean.nc --seed 0,-60 --seed 0,85");
+  CHECK(has(one_left.out, "\nparts of the sea            3\n"));
+  CHECK(has(one_left.out, "\n  --passage connects a part, ")); // and no others
   bench.file("inland.geojson", R"({"type": "MultiLineString", "coordinates":
       [[[-10, 36], [0, 38]], [[60, 60], [65, 60]]]})");
   CHECK(has(bench.run(land + "--passage inland.geojson").out,
