@@ -112,10 +112,16 @@ std::string with_option(const CLI::App& app, const std::string& text) {
       {"as an option or as the file's \"outsideWidth\"", " (--outside-width)"},
       {"as an option or as the file's \"insideWidth\"", " (--inside-width)"},
       {"as an option or as the file's \"transition\"", " (--transition)"},
-      {"name one, or give a file with one", " (--raster-variable, or variable of a rule)"}};
+      {"name one, or give a file with one", " (--raster-variable, or variable of a rule)"},
+      {"if they are fractions of land or sea, say so", " (--raster-values)"},
+      {"choose one index of each:", " --at"},
+      {"or tell the sea by a field", " (--field)"},
+      {"give the method conservative or nearest", " (--method)"},
+      {"has the name of a coordinate; leave it out", " (--fields)"},
+      {"give the mesh, too", " (--mesh FILE of draw, view, info and interpolate)"}};
   for (const auto& [remedy, option] : options)
-    if (text.ends_with(remedy))
-      return text + option;
+    if (const std::size_t at = text.rfind(remedy); at != text.npos)
+      return std::string(text).insert(at + remedy.size(), option);
   return text + with_value(app, text);
 }
 

@@ -193,8 +193,7 @@ TEST_CASE("rasters of land that are refused, in one line each") {
           height = std::abs(height);
       }),
       "no height is below 0, so that all is land; if the values are depths, give their variable "
-      "the attribute positive = \"down\"; if they are fractions of land or sea, say so "
-      "(--raster-values)"));
+      "the attribute positive = \"down\"; if they are fractions of land or sea, say so"));
   CHECK(refusal([&](RasterFile& r) { r.values[72 * 3 + 5] = nan; }) ==
         "z[3][5] = nan is not finite; correct it");
   CHECK(refusal([&](RasterFile& r) {

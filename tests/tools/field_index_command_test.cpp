@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/netcdf/netcdf_writer.h"
 #include "support/command.h"
 
 #include <calotte/field_grid.h>
@@ -86,11 +87,16 @@ TEST_CASE("view: fields without their mesh, at a time, beside those of another f
 TEST_CASE("indices of fields: bad input is one line") {
   const Bench bench;
   make_history(bench);
+  io_detail::NetcdfWriter alone(bench.path("alone.nc"));
+  alone.dimension("nCells", 3);
+  alone.begin();
+  alone.finish();
+  alone.commit();
   check_refusals(bench, "draw -o a.png", R"(
 history.nc --mesh grid.nc | 2 | --mesh is for a field of MESH; name it, as in --colour field:NAME
 grid.nc --at time=0 | 2 | --at is for a field of MESH
-history.nc --mesh grid.nc --colour field:theta | 2 | history.nc: theta has several numbers for each cell: Time (3), nVertLevels (2); choose one by --at Time=0,nVertLevels=0
-history.nc --mesh grid.nc --colour field:theta --at time=0 | 2 | choose one by --at nVertLevels=0
+history.nc --mesh grid.nc --colour field:theta | 2 | history.nc: theta has several numbers for each cell: Time (3), nVertLevels (2); choose one index of each: --at Time=0,nVertLevels=0
+history.nc --mesh grid.nc --colour field:theta --at time=0 | 2 | choose one index of each: --at nVertLevels=0
 history.nc --mesh grid.nc --colour field:theta --at time=3,lev=0 | 2 | time=3 is out of range: Time has the indices 0 to 2
 history.nc --mesh grid.nc --colour field:ssh --at time=0,lev=0 | 2 | history.nc: ssh has no dimension lev; it has Time (3)
 history.nc --mesh grid.nc --colour field:theta --at time=0,Time=1 | 2 | there are two indices of the dimension Time
@@ -101,6 +107,7 @@ history.nc --mesh grid.nc --colour field:theta --at time=x | 2 | --at time=x: ti
 history.nc --mesh triangles.vtp --colour field:theta --at time=0,lev=0x | 2 | lev=0x is no index
 history.nc --mesh never.nc --colour field:depth | 3 | never.nc
 history.nc --colour field:depth | 2 | history.nc
+alone.nc | 2 | zCell are missing); give the mesh, too (--mesh FILE of draw, view, info and interpolate), or add
 )");
   check_refusals(bench, "info", R"(
 history.nc --mesh grid.nc --at lev=5 | 2 | lev=5 is out of range

@@ -238,8 +238,7 @@ void refuse_netcdf(const NetcdfReader& file) {
   if (file.dimension("nCells") >= 0 && !file.has_variable("xCell"))
     file.fail(
         "fields of MPAS without the mesh (xCell, yCell and zCell are missing); give the mesh, "
-        "too, as --mesh FILE of draw, view, info and interpolate, or add its variables with "
-        "ncks -A");
+        "too, or add its variables with ncks -A");
   const std::string points = first_variable(file, [&](const std::string& name) {
     return is_longitude(file, name) && file.dimensions_of(name).size() == 1;
   });

@@ -280,8 +280,9 @@ MeshField read_field_at(const NetcdfReader& file, const std::string& name, std::
                                             : "it has " + in_words(field->dimensions));
   const auto indices = find_indices(field->dimensions, choices);
   if (count_left(*field, indices) > 1)
-    refuse_path(file.path(), "{} has several numbers for each cell: {}; choose one by --at {}",
-                name, in_words(field->dimensions), example(*field, indices));
+    refuse_path(file.path(),
+                "{} has several numbers for each cell: {}; choose one index of each: {}", name,
+                in_words(field->dimensions), example(*field, indices));
   read_values(file, {of_cells}, *field, indices);
   return *std::move(field);
 }

@@ -87,7 +87,8 @@ Weights on_triangles(const FieldGrid& source, const Points3& positions, Interpol
   const Mesh mesh =
       delaunay(centres, surface_of(source).is_sphere() ? Surface::sphere() : Surface::plane());
   require(mesh.points.cols() == centres.cols(),
-          "{} has cells with the same centre; give --method conservative or nearest", source.name);
+          "{} has cells with the same centre; give the method conservative or nearest",
+          source.name);
   Weights weights = interpolation_weights(mesh, positions, kind);
   const Ids cells = cells_at(*source.mesh.polygons, positions);
   weights.prune([&](Eigen::Index row, Eigen::Index, double) { return cells[row] >= 0; });

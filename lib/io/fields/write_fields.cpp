@@ -159,9 +159,8 @@ bool is_own_name(const std::string& name) {
 /// Refuses fields with names of variables of the file.
 void require_free_names(const std::string& path, const std::vector<MeshField>& fields) {
   for (const MeshField& field : fields)
-    require(!is_own_name(field.name),
-            "{}: the field {} has the name of a coordinate; leave it out with --fields", path,
-            field.name);
+    require(!is_own_name(field.name), "{}: the field {} has the name of a coordinate; leave it out",
+            path, field.name);
 }
 
 /// The variables that describe the other dimensions of fields in a source.

@@ -40,7 +40,7 @@ void require_global(const MpasSource& source, const Voronoi& cells) {
       cells.cells_on_cell.items.minCoeff() >= 0,
       "{} does not cover the sphere, so that coasts and rasters leave its cells; leave the land "
       "out of the global mesh with calotte cull and cut the region from that ocean with calotte "
-      "cut, or tell the sea by a field (--field)",
+      "cut, or tell the sea by a field",
       source.netcdf().path());
 }
 

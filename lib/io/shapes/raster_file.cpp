@@ -369,7 +369,7 @@ Raster read_land(const std::string& path, const std::string& variable, RasterQua
       io_detail::fail_file(
           path, "no height is below 0, so that all is land; if the values are depths, give their "
                 "variable the attribute positive = \"down\"; if they are fractions of land or sea, "
-                "say so (--raster-values)");
+                "say so");
     raster.values = raster.values.unaryExpr([](double height) { return height < 0 ? 0.0 : 1.0; });
   }
   return raster;

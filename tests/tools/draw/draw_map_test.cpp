@@ -499,9 +499,8 @@ TEST_CASE("an unknown field is refused with the names of the fields in the file"
   CHECK(message("deep", cells) == path + ": no variable deep; there are depth, index, pairs");
   CHECK(message("edges", cells) ==
         path + ": edges has not one value for each of 42 cells; there are depth, index, pairs");
-  CHECK(message("pairs", cells) ==
-        path +
-            ": pairs has several numbers for each cell: nEdges (120); choose one by --at nEdges=0");
+  CHECK(message("pairs", cells) == path + ": pairs has several numbers for each cell: nEdges "
+                                          "(120); choose one index of each: nEdges=0");
   CHECK(message("depth", 41) ==
         path + ": depth has not one value for each of 41 cells; the file has none: give another");
 }
