@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What falls short is said, as the command says it with its exit code."""
+import json
 import warnings
 
 import numpy as np
@@ -42,6 +43,18 @@ def test_shapes_beyond_the_limits_are_told():
     grid, texts = said(lambda: calotte.cvt(cell_width=jump))
     assert grid.well_centred or any(text.startswith("not well-centred: ") for text in texts)
     assert any("the cell width changes by" in text for text in texts)
+
+
+def test_passages_without_effect_are_told(tmp_path):
+    calotte.write(calotte.cvt(642).mesh, tmp_path / "globe.nc")
+    (tmp_path / "land.geojson").write_text(json.dumps(
+        {"type": "Polygon", "coordinates": [[[0, 0], [60, 0], [60, 60], [0, 60], [0, 0]]]}))
+    (tmp_path / "passages.geojson").write_text(json.dumps(
+        {"type": "MultiLineString", "coordinates": [[[-20, 30], [30, 30]], [[30, 40], [32, 40]]]}))
+    report, texts = said(lambda: calotte.cull(tmp_path / "globe.nc", tmp_path / "ocean.nc", land=tmp_path / "land.geojson",
+                                              passages=tmp_path / "passages.geojson"))
+    assert report["stranded_passages"] == [1]
+    assert texts == ["passages on land only, without effect: 1; begin and end them in the sea"]
 
 
 def test_a_change_that_falls_short_is_told():

@@ -1394,7 +1394,8 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     """Removes the land cells from an MPAS file; all fields go along. Returns a dict of counts.
 
     The dict's severed_parts are the largest parts of the sea that are left out: the cells, longitude
-    and latitude of the middle of each.
+    and latitude of the middle of each. Its stranded_passages are the passages that reach no sea, and
+    have no effect: their numbers among the lines of all files, from 0 on.
 
     land: GeoJSON of land, or a binned file of GSHHG; one or several. coast: an older name of it.
     least_area: of the islands and lakes of the land that count, km^2 on the Earth.
@@ -1418,7 +1419,11 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
              "raster_variable": raster_variable, "raster_values": raster_values, "field": field,
              "field_file": "" if field_file is None else str(field_file), "sea_from": sea_from,
              "sea_below": sea_below, "land_fraction": land_fraction, "least_area": least_area}
-    return _calotte.cull(str(source), str(target), words, fill,
-                         _arguments.sphere_points(points, "seeds"),
-                         "" if mask is None else str(mask),
-                         "" if cell_map is None else str(cell_map), sphere_radius, model)
+    report = _calotte.cull(str(source), str(target), words, fill,
+                           _arguments.sphere_points(points, "seeds"),
+                           "" if mask is None else str(mask),
+                           "" if cell_map is None else str(cell_map), sphere_radius, model)
+    if report["stranded_passages"]:
+        warnings.warn(f"passages on land only, without effect: {', '.join(map(str, report['stranded_passages']))}; "
+                      "begin and end them in the sea", stacklevel=2)
+    return report

@@ -259,6 +259,7 @@ py::dict cull_mesh(const std::string& source, const std::string& target, const p
     parts.append(py::make_tuple(report.sea.severed_parts[k].cells, at(0, 0), at(1, 0)));
   }
   values["severed_parts"] = parts;
+  values["stranded_passages"] = report.stranded_passages;
   return values;
 }
 
