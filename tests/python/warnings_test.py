@@ -46,11 +46,11 @@ def test_shapes_beyond_the_limits_are_told():
 
 
 def test_passages_without_effect_are_told(tmp_path):
-    calotte.write(calotte.cvt(642).mesh, tmp_path / "globe.nc")
+    calotte.write(tmp_path / "globe.nc", calotte.cvt(642).mesh)
     (tmp_path / "land.geojson").write_text(json.dumps(
         {"type": "Polygon", "coordinates": [[[0, 0], [60, 0], [60, 60], [0, 60], [0, 0]]]}))
     (tmp_path / "passages.geojson").write_text(json.dumps(
-        {"type": "MultiLineString", "coordinates": [[[-20, 30], [30, 30]], [[30, 40], [32, 40]]]}))
+        {"type": "MultiLineString", "coordinates": [[[-20, 10], [10, 10]], [[35, 30], [36, 30]]]}))
     report, texts = said(lambda: calotte.cull(tmp_path / "globe.nc", tmp_path / "ocean.nc", land=tmp_path / "land.geojson",
                                               passages=tmp_path / "passages.geojson"))
     assert report["stranded_passages"] == [1]
