@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -157,34 +156,23 @@ std::vector<Arc> ring_arcs(const Coast& coast) {
 } // namespace
 
 std::vector<CoastArc> coast_arcs(const Coast& coast) {
-  std::vector<Arc> all = ring_arcs(coast);
-  std::vector<std::array<double, 6>> sorted;
-  for (const Arc& arc : all)
-    sorted.push_back(ends(arc.from, arc.to));
-  std::sort(sorted.begin(), sorted.end());
-  std::erase_if(all, [&](const Arc& arc) {
-    return std::binary_search(sorted.begin(), sorted.end(), ends(arc.to, arc.from));
-  });
-  return joined_lines(all);
-}
-
-std::vector<CoastArc> closed_lines(const Coast& coast) {
+  using Key = std::pair<std::array<double, 6>, std::size_t>; // ends of an arc, and its index
   const std::vector<Arc> all = ring_arcs(coast);
-  std::map<std::array<double, 6>, std::vector<std::size_t>> single; // without one that runs back
-  std::vector<bool> paired(all.size());
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    std::vector<std::size_t>& back = single[ends(all[k].to, all[k].from)];
-    if (back.empty()) {
-      single[ends(all[k].from, all[k].to)].push_back(k);
-    } else {
-      paired[k] = paired[back.back()] = true;
-      back.pop_back();
-    }
-  }
-  std::vector<Arc> kept;
+  std::vector<Key> sorted;
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (!paired[k])
+    sorted.emplace_back(ends(all[k].from, all[k].to), k);
+  std::sort(sorted.begin(), sorted.end());
+  const auto before = [&](const Vec3& from, const Vec3& to, std::size_t index) {
+    return std::lower_bound(sorted.begin(), sorted.end(), Key(ends(from, to), index)) -
+           sorted.begin();
+  };
+  std::vector<Arc> kept;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto& [from, to] = all[k];
+    const auto back = before(to, from, all.size()) - before(to, from, 0);
+    if (back == 0 || before(from, to, k) - before(from, to, 0) >= back)
       kept.push_back(all[k]);
+  }
   return joined_lines(kept);
 }
 

@@ -21,15 +21,12 @@ struct CoastArc {
 };
 
 /// The arcs of a coast as they follow each other, line by line, see shores(). A line is a ring, or
-/// what is left of several rings that are cut along each other.
+/// what is left of several rings that are cut along each other: each arc that runs back cancels
+/// one. All lines are closed, also of simplified coasts, which pass some arcs more than once.
 ///
 /// \throws Error invalid_argument, naming ring and corner: one that is no direction, or opposite to
 ///         the one before.
 std::vector<CoastArc> coast_arcs(const Coast& coast);
-
-/// The same with each arc that runs back cancelling one: all lines are closed, also of simplified
-/// coasts, which pass some arcs more than once.
-std::vector<CoastArc> closed_lines(const Coast& coast);
 
 /// The sides of a coast, exact.
 class CoastSides {

@@ -27,7 +27,7 @@ Points3 ring_of(const std::vector<Arc>& line) {
 /// The closed lines of a coast.
 std::vector<std::vector<Arc>> lines_of(const Coast& coast) {
   std::vector<std::vector<Arc>> lines;
-  for (const CoastArc& each : closed_lines(coast)) {
+  for (const CoastArc& each : coast_arcs(coast)) {
     if (each.line == std::ssize(lines))
       lines.emplace_back();
     lines.back().push_back(each.arc);

@@ -58,6 +58,17 @@ TEST_CASE("distances from a coast are positive in the sea and negative on land")
   CHECK(worst < 0.01); // km, of the polygons
 }
 
+TEST_CASE("an arc that runs back cancels one: a coast that passes an arc three times is closed") {
+  const Points3 once = (Points3(3, 3) << direction(0, 0), direction(20, 0), direction(10, 20))
+                           .finished(),
+                thrice = (Points3(3, 5) << direction(0, 0), direction(20, 0), direction(0, 0),
+                          direction(20, 0), direction(10, 20))
+                             .finished();
+  const std::vector<Points3> lines = shores({.rings = {thrice}, .area = 0});
+  REQUIRE(lines.size() == 3); // arcs
+  CHECK(lines == shores({.rings = {once}, .area = 0}));
+}
+
 TEST_CASE("a coast without what is small: islands, lakes, and what lies in these") {
   const Eigen::Vector3d pole = direction(0, 90), lake = direction(180, 0), isle = direction(60, 0);
   const auto ring = [](const Eigen::Vector3d& centre, double radius) -> Points3 {
