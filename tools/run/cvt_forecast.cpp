@@ -51,14 +51,6 @@ Decay fit(std::span<const CvtIteration> iterations, Norm norm) {
   return {slope, mean_y + slope * (static_cast<double>(iterations.size()) - 1 - mean_x)};
 }
 
-std::string duration(double seconds) {
-  constexpr double minute = 60, hour = 3600;
-  if (seconds < 2 * minute)
-    return formatted("%.0f s", seconds);
-  return seconds < 2 * hour ? formatted("%.0f min", seconds / minute)
-                            : formatted("%.1f h", seconds / hour);
-}
-
 } // namespace
 
 std::optional<Forecast> forecast(const CvtProgress& progress, const CvtAction& action) {
@@ -158,7 +150,8 @@ std::string describe(const CvtProgress& progress, const Schedule& schedule) {
   if (progress.bisections_left > 0)
     text += message(", then {}", counted(progress.bisections_left, "finer level"));
   if (const auto left = remaining(progress, schedule); left && !polishes) {
-    const std::string from = duration(left->least), to = duration(left->most);
+    const std::string from = duration(std::round(left->least)),
+                      to = duration(std::round(left->most));
     text += message(", {} left", from == to ? from : message("{} to {}", from, to));
   }
   return text;

@@ -50,14 +50,6 @@ std::string bytes(double count) {
   return count < giga ? formatted("%.3g MB", count / mega) : formatted("%.3g GB", count / giga);
 }
 
-std::string duration(double seconds) {
-  constexpr double minute = 60, hour = 3600;
-  if (seconds < 2 * minute)
-    return formatted("%.2g s", seconds);
-  return seconds < 2 * hour ? formatted("%.2g min", seconds / minute)
-                            : formatted("%.2g h", seconds / hour);
-}
-
 std::string percent(double share) { return formatted("%5.1f%%", 100 * share); }
 
 std::string gradient_words(const GridPlan& plan) {

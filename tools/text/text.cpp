@@ -27,6 +27,14 @@ std::string spaced(std::int64_t count) {
   return digits;
 }
 
+std::string duration(double seconds) {
+  constexpr double minute = 60, hour = 3600;
+  const auto number = [](double value) { return formatted(value < 9.95 ? "%.2g" : "%.0f", value); };
+  return seconds < 2 * minute ? number(seconds) + " s"
+         : seconds < 2 * hour ? number(seconds / minute) + " min"
+                              : number(seconds / hour) + " h";
+}
+
 std::string row(std::string name, std::size_t column, const std::string& value) {
   name.resize(std::max(name.size(), column), ' ');
   return message("{}{}\n", name, value);

@@ -30,6 +30,9 @@ std::string formatted(const char* format, double value);
 /// "2562", "10 242": a count for people, its digits in groups of three from five digits on.
 std::string spaced(std::int64_t count);
 
+/// "0.41 s", "110 s", "2.5 min", "26 h": a time for people, of two digits or whole.
+std::string duration(double seconds);
+
 /// A line of a table: the name, blanks up to a column, and the value.
 std::string row(std::string name, std::size_t column, const std::string& value);
 
