@@ -20,7 +20,7 @@ using io_detail::PointRows;
 using io_detail::RowParser;
 
 /// Whole lines, parsed by a task of their own.
-struct Part {
+struct TextPart {
   RowParser parser;
   PointRows rows{};
   std::int64_t before = 0; ///< number of lines of the text before them
@@ -29,7 +29,7 @@ struct Part {
 };
 
 /// \throws Error parse.
-void parse(LineReader reader, Part& part) {
+void parse(LineReader reader, TextPart& part) {
   for (std::string_view line; reader.next(line);)
     part.parser.parse(reader, line, part.rows);
   part.lines = reader.number();
@@ -39,12 +39,12 @@ void parse(LineReader reader, Part& part) {
 /// memory for the next lines.
 /// \throws Error parse, of the first line that is refused.
 void parse_parts(LineReader& reader, std::string_view text, RowParser& parser,
-                 std::vector<Part>& parts) {
+                 std::vector<TextPart>& parts) {
   constexpr std::size_t part_bytes = std::size_t{1} << 18;
   const std::vector<std::string_view> texts = io_detail::parts_of(text, part_bytes);
-  parts.resize(texts.size(), Part{parser});
+  parts.resize(texts.size(), TextPart{parser});
   base_detail::for_each_task(std::ssize(texts), [&](std::int64_t i) {
-    Part& part = parts[static_cast<std::size_t>(i)];
+    TextPart& part = parts[static_cast<std::size_t>(i)];
     part.parser = parser.following();
     part.rows.clear();
     try {
@@ -54,7 +54,7 @@ void parse_parts(LineReader& reader, std::string_view text, RowParser& parser,
     }
   });
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    Part& part = parts[i];
+    TextPart& part = parts[i];
     if (part.refused) {
       part = {parser};
       parse(LineReader(texts[i], reader.name(), reader.number()), part); // throws
@@ -76,16 +76,16 @@ void make_room(std::int64_t points, PointLines& out) {
 }
 
 /// Appends the points of parts.
-void append(const std::vector<Part>& parts, const LineReader& reader, PointLines& out) {
+void append(const std::vector<TextPart>& parts, const LineReader& reader, PointLines& out) {
   std::vector<std::int64_t> begin;
   auto points = std::ssize(out.lines);
-  for (const Part& part : parts) {
+  for (const TextPart& part : parts) {
     begin.push_back(points);
     points += std::ssize(part.rows.lines);
   }
   if (points > out.points.cols()) // one line, the first, does not tell how long the others are
     make_room(points == 1 ? 1 : std::max(points, reader.estimate_all(points)), out);
-  for (const Part& part : parts)
+  for (const TextPart& part : parts)
     for (const std::int64_t line : part.rows.lines)
       out.lines.push_back(part.before + line);
   base_detail::for_each_task(std::ssize(parts), [&](std::int64_t i) {
@@ -97,7 +97,7 @@ void append(const std::vector<Part>& parts, const LineReader& reader, PointLines
 PointLines read_rows(std::istream& in, const std::string& name, Columns columns) {
   constexpr std::size_t bytes_per_thread = std::size_t{1} << 20, most_bytes = std::size_t{8} << 20;
   LineReader reader(in, name);
-  std::vector<Part> parts{Part{RowParser(columns)}};
+  std::vector<TextPart> parts{TextPart{RowParser(columns)}};
   RowParser parser = parts[0].parser;
   PointLines result;
   for (std::string_view line; !parser.has_points() && reader.next(line);)
@@ -112,7 +112,7 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
     parse_parts(reader, text, parser, parts);
   }
   result.further_columns = parser.finish(reader);
-  result.points.conservativeResize(3, std::ssize(result.lines));
+  result.points.conservativeResize(3, std::ssize(result.lines)); // shrinks in its memory
   return result;
 }
 
