@@ -13,9 +13,16 @@
 
 namespace calotte::tools {
 
+std::string longitude_words(double longitude) {
+  return formatted("%.1f", std::abs(longitude)) + (longitude < 0 ? " W" : " E");
+}
+
+std::string latitude_words(double latitude) {
+  return formatted("%.1f", std::abs(latitude)) + (latitude < 0 ? " S" : " N");
+}
+
 std::string lonlat_words(double longitude, double latitude) {
-  return message("{} {} {} {}", formatted("%.1f", std::abs(longitude)), longitude < 0 ? "W" : "E",
-                 formatted("%.1f", std::abs(latitude)), latitude < 0 ? "S" : "N");
+  return longitude_words(longitude) + " " + latitude_words(latitude);
 }
 
 Eigen::Vector3d direction_at(double longitude, double latitude) {

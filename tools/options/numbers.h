@@ -18,6 +18,10 @@
 /// Numbers in the text of options and files.
 namespace calotte::tools {
 
+/// "136.5 W". \param longitude degrees, from -180 to 180.
+std::string longitude_words(double longitude);
+/// "81.0 N". \param latitude degrees, from -90 to 90.
+std::string latitude_words(double latitude);
 /// "136.5 W 81.0 N". \param longitude, latitude degrees; from -180 to 180, and -90 to 90.
 std::string lonlat_words(double longitude, double latitude);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/extent.h"
 
+#include "options/numbers.h"
 #include "text/text.h"
 
 #include <calotte/generators.h>
@@ -113,16 +114,11 @@ std::string words_of(const Extent& extent, bool on_sphere) {
   if (!on_sphere)
     return message("x {} to {}, y {} to {}", number(x[0]), number(x[1]), number(y[0]),
                    number(y[1]));
-  const auto longitude = [](double value) {
-    return formatted("%.1f", std::abs(value)) + (value < 0 ? " W" : " E");
-  };
-  const auto latitude = [](double value) {
-    return formatted("%.1f", std::abs(value)) + (value < 0 ? " S" : " N");
-  };
   return message("{}, {} to {}",
-                 extent.all_around ? "all longitudes"
-                                   : message("{} to {}", longitude(x[0]), longitude(x[1])),
-                 latitude(y[0]), latitude(y[1]));
+                 extent.all_around
+                     ? "all longitudes"
+                     : message("{} to {}", longitude_words(x[0]), longitude_words(x[1])),
+                 latitude_words(y[0]), latitude_words(y[1]));
 }
 
 } // namespace calotte::tools
