@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_forecast.h"
+#include "text/text.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::tools;
@@ -187,6 +191,17 @@ TEST_CASE("the time left follows the wall clock, of which evaluations are a part
   CHECK(levels->most == doctest::Approx(3 * remaining(state, schedule)->most));
 }
 
+TEST_CASE("times for people have two digits, or are whole") {
+  for (const auto& [seconds, words] : std::vector<std::pair<double, std::string>>{{0, "0 s"},
+                                                                                  {0.412, "0.41 s"},
+                                                                                  {9.97, "10 s"},
+                                                                                  {110, "110 s"},
+                                                                                  {150, "2.5 min"},
+                                                                                  {6600, "110 min"},
+                                                                                  {94000, "26 h"}})
+    CHECK(duration(seconds) == words);
+}
+
 TEST_CASE("progress names the level, the norm and the prediction") {
   Standing state = decaying(101, 0.9);
   state.bisections_left = 2;
@@ -199,5 +214,5 @@ TEST_CASE("progress names the level, the norm and the prediction") {
   schedule.actions = {{.norm = Norm::none, .max_iterations = 4000}};
   state.bisections_left = 0;
   CHECK(describe(state, schedule) ==
-        "12 cells, iteration 101, energy x cells 0, 91 min to 3.0 h left");
+        "12 cells, iteration 101, energy x cells 0, 91 min to 3 h left");
 }
