@@ -30,6 +30,10 @@ std::string read_file(const std::string& path);
 /// \throws Error file.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// Cell widths above it, in km, may be metres: a coarser grid of the Earth has fewer than 150
+/// cells.
+inline constexpr double widest_in_km = 2000;
+
 /// A number with a unit.
 struct Measure {
   double value = 0;

@@ -275,9 +275,8 @@ std::string lonlat_words(const WidthGradient& gradient) {
 }
 
 std::string doubt_of(const WidthField& widths, const WidthWords& words) {
-  constexpr double widest = 2000; // km; a coarser grid of the Earth has fewer than 150 cells
   const double most = widths.greatest();
-  if (most <= widest)
+  if (most <= widest_in_km)
     return "";
   return message("{}cells {} km wide are large; if these are metres, give km",
                  words.uniform ? "" : words.file + ": ", most);

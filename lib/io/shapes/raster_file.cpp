@@ -4,6 +4,7 @@
 #include "base/message.h"
 #include "base/require.h"
 #include "io/bytes/file_error.h"
+#include "io/command.h"
 #include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
 
@@ -297,9 +298,8 @@ ValueLaw make_law(RasterQuantity quantity, bool of_plane) {
 /// Refuses widths of the sphere that have no unit and look like metres.
 void require_known_unit(const DoubleMatrix& values, const NetcdfReader& file,
                         const std::string& variable) {
-  constexpr double widest = 2000; // km; a coarser grid of the Earth has fewer than 150 cells
   const double most = values.array().isNaN().select(0, values.array()).maxCoeff();
-  if (most > widest && file.text(variable, "units").empty())
+  if (most > widest_in_km && file.text(variable, "units").empty())
     file.fail("{} is up to {} and has no unit: metres or km? Give it the attribute units, \"m\" or "
               "\"km\"",
               variable, most);
