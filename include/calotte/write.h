@@ -4,6 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
+#include <calotte/gates.h>
 #include <calotte/mesh.h>
 #include <calotte/progress.h>
 #include <calotte/surface.h>
@@ -178,7 +179,7 @@ const std::vector<FormatInfo>& formats();
 /// The properties of one format. \pre not by_name.
 const FormatInfo& info_of(Format format);
 
-/// A model, and the options of write() that suit it.
+/// A model, the options of write() that suit it, and its demands on grids.
 struct ModelNeeds {
   std::string word;         ///< such as "mpas-ocean"
   std::string name;         ///< such as "MPAS-Ocean"
@@ -190,6 +191,7 @@ struct ModelNeeds {
   Numbering numbering = Numbering::by_format;          ///< of the cells
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of MPAS files
   std::vector<FieldDimension> dimensions = {};         ///< besides those of the mesh
+  GridDemands demands = {};                            ///< see gates()
 };
 
 /// All models:
@@ -202,6 +204,12 @@ struct ModelNeeds {
 /// - MPAS' shallow-water core: the unit sphere (mpas_sw_test_cases.F), and the dimensions
 ///   nVertLevels and nTracers, which it reads from the file.
 /// - FESOM: the triangles, nod2d.out and elem2d.out.
+///
+/// The demands of the MPAS models are: five sides at least; Voronoi edges of short_voronoi_edge or
+/// more; widths that double within six cells or more, so that they change by 2^(1/6) - 1 from one
+/// cell to the next. MPAS-Atmosphere stores 15 cells that advect (FIFTEEN in its Registry.xml), and
+/// often has coordinates of 32 bits. Its flow is at most 125 m/s, its waves are sound of 340 m/s;
+/// those of the others are gravity waves of 11 km, 330 m/s. FESOM has no demands here.
 const std::vector<ModelNeeds>& models();
 
 /// The model of that word; null if there is none.
@@ -211,6 +219,11 @@ const ModelNeeds* find_model(std::string_view word);
 /// \param format not by_name.
 bool suits(const ModelNeeds& model, Format format, double sphere_radius, VertexOrder vertex_order,
            const std::vector<FieldDimension>& dimensions = {});
+
+/// Compares a grid with the demands of a model, see gates(voronoi, demands, radius, mask).
+/// \param planet_radius of the grid, metres, which a model of any planet takes; others have theirs.
+std::vector<Gate> gates(const Voronoi& voronoi, const ModelNeeds& model,
+                        std::optional<double> planet_radius = {}, const Ids& mask = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -27,11 +27,13 @@ bool is_whole(const Voronoi& voronoi, std::int64_t cell) {
   return voronoi.cell_area[cell] > 0 && has_all_neighbours(voronoi, cell);
 }
 
+/// The passes of smoothing whose weight extends over two cells.
+constexpr int two_cells = 8;
+
 /// Smooths the logarithms of cells: several times, each is replaced by the mean of itself and of
-/// its neighbours' mean. The resulting weight extends over two cells (its variance grows by half a
-/// spacing squared in each pass). Cells without a number keep none.
-void smooth(const Voronoi& voronoi, DoubleVector& logarithms) {
-  constexpr int passes = 8;
+/// its neighbours' mean. The variance of the resulting weight grows by half a spacing squared in
+/// each pass. Cells without a number keep none.
+void smooth(const Voronoi& voronoi, int passes, DoubleVector& logarithms) {
   DoubleVector next(logarithms.size());
   for (int pass = 0; pass < passes; ++pass) {
     base_detail::for_each_block(
@@ -133,10 +135,16 @@ SpacingFit spacing_fit(const Voronoi& voronoi, const DoubleVector& density, doub
     logarithms[i] = rho > 0 ? logarithms[i] - std::log(nominal) + std::log(rho) / 4 : unknown;
     fit.cells += std::isnan(logarithms[i]) ? 0 : 1;
   }
-  smooth(voronoi, logarithms);
+  smooth(voronoi, two_cells, logarithms);
   const auto [median, low, high] = quantiles(logarithms, shares);
   fit.median = std::exp(median), fit.low = std::exp(low), fit.high = std::exp(high);
   return fit;
+}
+
+DoubleVector smoothed_log_spacings(const Voronoi& voronoi, int passes) {
+  DoubleVector logarithms = log_spacings(voronoi);
+  smooth(voronoi, passes, logarithms);
+  return logarithms;
 }
 
 } // namespace voronoi_detail
@@ -147,7 +155,7 @@ DoubleVector spacing_density(const Voronoi& voronoi) {
   constexpr std::array<double, 2> shares{0.05, 0.95};
   DoubleVector logarithms = log_spacings(voronoi);
   const double scatter = deviation(logarithms);
-  smooth(voronoi, logarithms);
+  smooth(voronoi, two_cells, logarithms);
   const auto [low, high] = quantiles(logarithms, shares);
   if (high - low <= std::log(uniform) || deviation(logarithms) < scatter / 2)
     return {};

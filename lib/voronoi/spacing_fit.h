@@ -26,4 +26,9 @@ struct SpacingFit {
 /// \param density as above. \param nominal in the unit of voronoi; > 0.
 SpacingFit spacing_fit(const Voronoi& voronoi, const DoubleVector& density, double nominal);
 
+/// The logarithms of the spacings of cells, smoothed over their neighbours. The spacing is that of
+/// a hexagon of the cell's area. \param passes of smoothing. Each adds half a spacing squared to
+/// the variance of the weight. \returns by cell; NaN for cells that lack a neighbour.
+DoubleVector smoothed_log_spacings(const Voronoi& voronoi, int passes);
+
 } // namespace calotte::voronoi_detail
