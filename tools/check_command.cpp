@@ -2,7 +2,9 @@
 #include "commands.h"
 #include "help/help.h"
 #include "options/mesh_source.h"
+#include "options/model_option.h"
 #include "run/exit_code.h"
+#include "run/model_gates.h"
 #include "run/progress.h"
 #include "run/shapes.h"
 #include "text/text.h"
@@ -117,7 +119,7 @@ std::string failure_of(const std::vector<Deviation>& deviations) {
                  variables.size() == 1 ? "deviates" : "deviate", listed(variables));
 }
 
-void run_check(const MeshSource& source) {
+void run_check(const MeshSource& source, const std::optional<std::string>& word) {
   std::string text;
   std::vector<std::string> failures;
   const auto add = [&failures](std::string failure) {
@@ -130,6 +132,7 @@ void run_check(const MeshSource& source) {
     MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
+    const ModelNeeds* model = demanding_model_of(word, file);
     // Cells without triangles of their own are checked as cells; a periodic plane has triangles.
     const Mesh* plane = file.plane();
     const bool own_triangles = plane ? !file.polygons || plane->surface.period().maxCoeff() > 0
@@ -143,6 +146,11 @@ void run_check(const MeshSource& source) {
       const PolygonShapes found = shapes(*file.polygons);
       text += table(found, file);
       add(without_area(found));
+    }
+    if (model != nullptr && failures.empty()) {
+      const ModelGates found = gates_of(*model, source.path, file);
+      text += table(found);
+      add(failure_of(found));
     }
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
     for (const Deviation& deviation : deviations)
@@ -164,10 +172,13 @@ void add_check(CLI::App& app) {
       "compares the other variables of a NetCDF file with it, too.");
   auto source = add_mesh_source(*command);
   add_plane(*command, *source);
+  auto model = std::make_shared<std::optional<std::string>>();
+  add_demanding_model(*command, *model);
   set_help(*command,
            {.common = {},
-            .examples = {"calotte check mesh.nc", "calotte check mesh.tri --points points.txt"}});
-  command->callback([source] { run_check(*source); });
+            .examples = {"calotte check mesh.nc", "calotte check mesh.nc --for mpas-atmosphere",
+                         "calotte check mesh.tri --points points.txt"}});
+  command->callback([source, model] { run_check(*source, *model); });
 }
 
 } // namespace calotte::tools

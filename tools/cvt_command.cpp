@@ -6,6 +6,7 @@
 #include "options/cvt_options.h"
 #include "options/cvt_request.h"
 #include "options/files.h"
+#include "options/model_option.h"
 #include "options/numbers.h"
 #include "options/warning.h"
 #include "run/cvt_checks.h"
@@ -17,12 +18,14 @@
 #include "run/exit_code.h"
 #include "run/interruption.h"
 #include "run/kept_states.h"
+#include "run/model_gates.h"
 #include "run/progress.h"
 #include "text/text.h"
 
 #include <calotte/checkpoint.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/mesh_file.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
 #include <calotte/version.h>
@@ -81,13 +84,14 @@ struct CvtOutcome {
   CvtReport report;
   Mesh mesh; ///< empty after it is written
   std::int64_t cells = 0;
-  BadShapes shapes;           ///< of the mesh, where no polish ended the run
-  std::string grid;           ///< the cells of the file, in words
-  std::string worst_position; ///< of the cell of the worst shape: " (at ...)", or ""
-  double area = 0;            ///< of the surface
-  int signal = 0;             ///< the signal that ended it early
-  bool kept = false;          ///< its state then
-  std::size_t before = 0;     ///< iterations of the earlier parts of a resumed run
+  BadShapes shapes;                ///< of the mesh, where no polish ended the run
+  std::string grid;                ///< the cells of the file, in words
+  std::optional<ModelGates> gates; ///< of the model that is to read the file
+  std::string worst_position;      ///< of the cell of the worst shape: " (at ...)", or ""
+  double area = 0;                 ///< of the surface
+  int signal = 0;                  ///< the signal that ended it early
+  bool kept = false;               ///< its state then
+  std::size_t before = 0;          ///< iterations of the earlier parts of a resumed run
   std::vector<KeptState> states;
   int threads = 0;
 };
@@ -267,17 +271,32 @@ GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
   }
 }
 
+/// Compares the grid with the demands of its model, before the file is written where that has the
+/// whole mesh, and else as the file has it.
+void compare_with_demands(const CvtRequest& request, CvtOutcome& outcome, bool written) {
+  const ModelNeeds* model = model_of(request.format->model);
+  const bool part = request.part.limited_area;
+  if (model == nullptr || model->demands.least_sides == 0 || planar(request) || part != written)
+    return;
+  outcome.gates = part ? gates_of(*model, request.mesh,
+                                  read_mesh_file(request.mesh, nullptr, FieldChoice::none))
+                       : gates_of(*model, outcome.mesh);
+}
+
 void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome,
                   Progress& progress) {
+  compare_with_demands(request, outcome, false);
   progress.stage("writing " + request.mesh);
   const Recipe& made = run.schedule.recipe;
   WriteOptions options = write_options(request);
   options.history = history_of(request, made.stop, run.configuration, outcome.report);
   outcome.grid =
       describe_cells(run.input.recipe, write_file_of(request, run, outcome.mesh, options));
+  compare_with_demands(request, outcome, true);
   if (!request.report.empty())
-    write_file(request.report, to_json(request, run.schedule, outcome.report, outcome.cells,
-                                       outcome.area, outcome.threads, outcome.states));
+    write_file(request.report,
+               to_json(request, run.schedule, outcome.report, outcome.cells, outcome.area,
+                       outcome.threads, outcome.states, outcome.gates));
 }
 
 /// From here on a signal ends the run after the current iteration, with its output complete.
@@ -350,10 +369,15 @@ void run(CvtRequest request) {
                        : "") +
                    models_of(request);
   warn_of_result(request, schedule, outcome);
+  const std::string beyond = outcome.gates ? failure_of(*outcome.gates) : "";
+  if (!beyond.empty())
+    complain(beyond + "; the mesh is written");
   if (!outcome.report.converged)
     finish_not_converged(request, stop, outcome.report);
   if (*stop.well_centred && !outcome.report.well_centred)
     finish_not_well_centred(request, outcome);
+  if (!beyond.empty())
+    finish(beyond_demands);
 }
 
 } // namespace

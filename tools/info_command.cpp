@@ -6,10 +6,12 @@
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/mesh_source.h"
+#include "options/model_option.h"
 #include "options/numbers.h"
 #include "options/sphere_radius_option.h"
 #include "options/units_option.h"
 #include "run/mesh_measures.h"
+#include "run/model_gates.h"
 #include "run/progress.h"
 #include "text/text.h"
 #include "view/view_mesh.h"
@@ -41,6 +43,7 @@ struct InfoRequest {
   std::optional<double> sphere_radius; ///< metres
   std::optional<std::string> units;    ///< --units
   std::optional<std::int64_t> cell;    ///< whose numbers are asked for
+  std::optional<std::string> model;    ///< --for
   bool operators = false;              ///< whether the errors of operators are
   std::string report;
 };
@@ -87,16 +90,9 @@ void find_boundary(const EdgeCounts& edges, Measured& measured) {
 /// The cells by bdyMaskCell; none if the file does not have it.
 std::vector<std::int64_t> masks_of(const std::string& path, std::int64_t cells) {
   std::vector<std::int64_t> counts;
-  try {
-    for (const double mask : read_cell_field(path, "bdyMaskCell", cells).values) {
-      if (!(mask >= 0 && mask <= limited_area_rings))
-        return {};
-      counts.resize(limited_area_rings + 1);
-      ++counts[static_cast<std::size_t>(mask)];
-    }
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::invalid_argument) // no such variable
-      throw;
+  for (const std::int32_t mask : cell_mask_of(path, cells)) {
+    counts.resize(limited_area_rings + 1);
+    ++counts[static_cast<std::size_t>(mask)];
   }
   return counts;
 }
@@ -225,6 +221,7 @@ void require_fields_alone(const InfoRequest& request) {
   const std::vector<std::pair<const char*, bool>> of_measures{
       {"--report", !request.report.empty()},
       {"--operators", request.operators},
+      {"--for", request.model.has_value()},
       {"--units", request.units.has_value()},
       {"--sphere-radius", request.sphere_radius.has_value()},
       {"--density", !request.density->densities.empty()},
@@ -288,6 +285,13 @@ std::string read_and_measure(const InfoRequest& request) {
     measured.remarks.push_back(message("the density {} is not used: closed meshes and domains of a "
                                        "plane are compared with one",
                                        given));
+  if (const ModelNeeds* model = demanding_model_of(request.model, file)) {
+    if (file.not_voronoi.passed())
+      measured.gates = gates_of(*model, request.source->path, file);
+    else
+      measured.remarks.push_back(
+          message("the demands of {} are on Voronoi cells, so they are not compared", model->name));
+  }
   if (!request.report.empty())
     write_file(request.report,
                by_corners ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));
@@ -320,6 +324,7 @@ void add_info(CLI::App& app) {
                     "default: the planet's that the file names, or --earth-radius with "
                     "--cell-width");
   add_units(*command, request->units);
+  add_demanding_model(*command, request->model);
   command->get_option("--plane")->excludes("--sphere-radius")->excludes("--units");
   command
       ->add_option("--cell", request->cell,
@@ -333,8 +338,9 @@ void add_info(CLI::App& app) {
   set_help(*command,
            {.common = {"MESH", "--mesh", "--at", "--points", "--plane", "--domain", "--density",
                        "--cell-width", "--sphere-radius", "--units", "--cell", "--operators",
-                       "--report"},
+                       "--for", "--report"},
             .examples = {"calotte info mesh.nc", "calotte info mesh.nc --operators",
+                         "calotte info mesh.nc --for mpas-ocean",
                          "calotte info history.nc --mesh mesh.nc --at time=3,lev=0",
                          "calotte info mesh.vtp --sphere-radius earth --cell-width 60km"}});
   command->callback([request] { run(*request); });

@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <sstream>
 #include <string>
 
@@ -199,4 +200,37 @@ TEST_CASE("FESOM: the sum of a field tells heights from depths, and land has the
     CHECK(count("-4000") == 59);
     CHECK(count("0") == 2); // the first level, and the land
   }
+}
+
+TEST_CASE("check --for names the demands that fail, and where") {
+  const Bench bench;
+  check_success(bench, "cvt --cells 2562 -o good.nc --for mpas-atmosphere");
+  const std::string passed = check_success(bench, "check good.nc --for mpas-atmosphere").out;
+  for (const char* name : {"sides of a cell, least", "dv / dc, least", "change of width, most",
+                           "cells that advect, most", "longest step, s, of flow"})
+    CHECK(has(passed, name));
+  CHECK(has(passed, "good.nc: passed"));
+  check_success(bench, "points random 500 --seed 3 -o random.txt");
+  check_success(bench, "delaunay random.txt -o random.nc");
+  const Outcome failed = bench.run("check random.nc --for mpas-ocean");
+  CHECK(failed.code == 1);
+  CHECK(has(failed.err,
+            "random.nc: failed: beyond the limits of MPAS-Ocean: sides of a cell, least 3, "));
+  CHECK(has(failed.err, "; dv / dc, least "));
+  CHECK(has(failed.err, "; change of width, most "));
+  CHECK(bench.run("check random.nc").code == 0);
+  check_success(bench, "info random.nc --for mpas-sw --report report.json");
+  CHECK(has(bench.file("report.json"), "\"beyond\""));
+  CHECK(bench.run("check random.nc --for fesom").code == 2);
+}
+
+TEST_CASE("a run for a model whose demands it does not meet ends with exit code 5") {
+  const Bench bench;
+  const Outcome outcome = bench.run(
+      "cvt --cells 1000 --iterations 3 --start density -o steep.nc --for mpas-ocean --density "
+      "tanh:lon=270,lat=30,beta=10deg,alpha=0.02,gamma=x16");
+  CHECK(outcome.code == 5);
+  CHECK(has(outcome.err, "beyond the limits of MPAS-Ocean: "));
+  CHECK(has(outcome.err, "; the mesh is written"));
+  CHECK(std::filesystem::exists(bench.folder() / "steep.nc"));
 }

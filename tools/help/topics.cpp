@@ -200,6 +200,17 @@ With --operators, for smooth fields, over the root mean square of the exact valu
   off midpoint          distance from the middle of a side to that between its generators, over dc
   longest stable step   times the speed of waves, or times a viscosity
 
+With --for MODEL, the demands of the model on grids; calotte check fails where one is not met:
+  sides of a cell       5 at least, as cells with 4 have ended forecasts
+  change of width       from a cell to the next, of widths smoothed over some neighbours; limit
+                        0.1225, so that they double within six cells or more
+  cells that advect     the two cells of an edge and their neighbours; MPAS-Atmosphere stores 15
+  dv / unit of float32  in the distance of numbers of 32 bits on the planet, half a metre on the
+                        Earth; from 100 on rounding changes an edge by 2% at most
+  rings out of order    cells of a limited area beside a ring that is not the next
+  longest step, s       of flow 0.9 dc over 125 m/s; of waves, sound or gravity waves of the
+                        deepest sea, at most the longest stable step that --operators measures
+
 Of one cell also:
   neighbours, sides     their number
   largest angle         of the triangles at the cell
@@ -215,7 +226,8 @@ constexpr const char* codes =
   2  invalid options or input
   3  a file cannot be opened, read or written
   4  not enough memory or threads, or an internal error
-  5  the run converged, but the mesh is not well-centred (it is written)
+  5  the run converged, but the mesh is not well-centred, or is beyond the limits of the model
+     that --for names (it is written)
   130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint
 )";
 

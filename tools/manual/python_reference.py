@@ -14,7 +14,7 @@ import calotte
 from calotte import _calotte, _functions, widths
 
 GROUPS = [
-    ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "operator_errors",
+    ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "gates", "operator_errors",
                                   "neighbours", "locate", "interpolate", "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
     ("Grids", ["cvt", "plan", "refine", "coarsen", "limited_area", "density"]),

@@ -24,6 +24,25 @@ CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word) {
       ->check(CLI::IsMember(known));
 }
 
+CLI::Option* add_demanding_model(CLI::App& command, std::optional<std::string>& word) {
+  std::vector<std::string> known;
+  for (const ModelNeeds& model : models())
+    if (model.demands.least_sides > 0)
+      known.push_back(model.word);
+  return command
+      .add_option("--for", word,
+                  message("Compare the grid with the demands of a model, {}: sides of cells, short "
+                          "Voronoi edges, changes of width, rings; and print its longest steps",
+                          listed(known, ", ", " or ")))
+      ->check(CLI::IsMember(known));
+}
+
+const ModelNeeds* demanding_model_of(const std::optional<std::string>& word, const MeshFile& file) {
+  if (word && !file.surface().is_sphere())
+    refuse(message("--for {}: the demands are on grids of the sphere; leave it out", *word));
+  return model_of(word);
+}
+
 const ModelNeeds* model_of(const std::optional<std::string>& word) {
   return word ? find_model(*word) : nullptr;
 }

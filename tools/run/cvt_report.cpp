@@ -84,7 +84,7 @@ constexpr const char* within_limits = "all shapes within the limits of models";
 
 std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
-                    const std::vector<KeptState>& states) {
+                    const std::vector<KeptState>& states, const std::optional<ModelGates>& gates) {
   const CvtStop& stop = schedule.recipe.stop;
   Json json;
   json["calotte"] = CALOTTE_VERSION;
@@ -117,6 +117,8 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
   json["regions"] = array_of(report.regions);
   if (!states.empty())
     json["states"] = array_of(states);
+  if (gates)
+    json["demands"] = to_json(*gates);
   return json.dump(1) + "\n";
 }
 

@@ -3,6 +3,7 @@
 
 #include "options/cvt_request.h"
 #include "run/kept_states.h"
+#include "run/model_gates.h"
 
 #include <calotte/grid.h>
 #include <calotte/quality.h>
@@ -10,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,10 @@ namespace calotte::tools {
 /// \param states that the run kept.
 /// \param threads number of threads.
 /// \param area area of the sphere or the domain.
+/// \param gates of the model that is to read the grid, if one is named.
 std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
-                    const std::vector<KeptState>& states);
+                    const std::vector<KeptState>& states, const std::optional<ModelGates>& gates);
 
 /// The periods and walls of a mesh of a plane.
 std::string kind_of_plane(const Eigen::Vector2d& period);

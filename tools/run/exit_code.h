@@ -18,8 +18,9 @@ enum ExitCode {
   file_trouble = 3,
   internal_error = 4,
   not_well_centred = 5,
-  interrupted = 130, ///< by SIGINT, as in a shell: 128 and the signal's number
-  terminated = 143,  ///< by SIGTERM
+  beyond_demands = 5, ///< of the model that is to read the grid
+  interrupted = 130,  ///< by SIGINT, as in a shell: 128 and the signal's number
+  terminated = 143,   ///< by SIGTERM
 };
 
 /// Ends the command with an exit code, without a message.

@@ -237,6 +237,8 @@ std::string to_json(const Measured& measured) {
     json["triangles_area"] = quality.triangles_area;
   if (measured.operators)
     json["operators"] = operators_to_json(*measured.operators, !measured.domain_area);
+  if (measured.gates)
+    json["demands"] = to_json(*measured.gates);
   return json.dump(2) + "\n";
 }
 
@@ -270,10 +272,11 @@ std::string table(const Measured& measured) {
     table.row("cells / 4 pi", measured.cells_area, 15);
   if (!plane)
     table.row("triangles / 4 pi", quality.triangles_area, 15);
-  if (measured.operators)
-    return table.text() +
-           operator_rows(*measured.operators, plane ? Unit() : measured.unit, !plane);
-  return table.text();
+  return table.text() +
+         (measured.operators
+              ? operator_rows(*measured.operators, plane ? Unit() : measured.unit, !plane)
+              : "") +
+         (measured.gates ? tools::table(*measured.gates) : "");
 }
 
 std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, const Unit& unit) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "options/units_option.h"
+#include "run/model_gates.h"
 
 #include <calotte/check.h>
 #include <calotte/mesh_file.h>
@@ -27,6 +28,7 @@ struct Measured {
   std::optional<EdgeCounts> open;   ///< of an open mesh; its whole cells are measured if `cells`
   std::optional<ValueRange> areas;  ///< of all cells of an open mesh, if the file has them
   double cells_area = 0;            ///< their sum / 4 pi
+  std::optional<ModelGates> gates;  ///< of the model that is named
   std::vector<std::int64_t> masks;  ///< cells by bdyMaskCell, if the file has it
   std::vector<std::string> changes; ///< what the reader changed in the mesh, one line each
   std::vector<std::string> remarks; ///< about the mesh, one line each

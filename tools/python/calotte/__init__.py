@@ -18,10 +18,10 @@ import importlib
 from . import _display, _mesh, widths  # add the methods that are written in Python
 from ._calotte import (CellWidth, Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors,
                        Polygons, Quality, Raster, Surface, Unit, Voronoi, Widths, __version__)
-from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Plan, Weights, bisect,
+from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Gate, Plan, Weights, bisect,
                          bisected_icosahedron, box, channel, check, circle, coarsen, cubed_sphere,
                          cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
-                         from_lonlat, geodesic_sphere, hexagonal_lattice, interpolate,
+                         from_lonlat, gates, geodesic_sphere, hexagonal_lattice, interpolate,
                          interpolation_weights, lat_lon_sphere, limited_area, locate,
                          neighbours, operator_errors, partition, periodic_box, plan, planar_polygon,
                          plane, polygon,
@@ -31,11 +31,11 @@ from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Plan, Weights, 
 
 __all__ = [
     "Action", "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "Cvt", "Density", "Error",
-    "IdLists", "Locations", "Mesh", "OperatorErrors", "Plan", "Polygons", "Quality", "Raster", "Surface",
+    "Gate", "IdLists", "Locations", "Mesh", "OperatorErrors", "Plan", "Polygons", "Quality", "Raster", "Surface",
     "Unit", "Voronoi", "Weights", "Widths", "__version__", "bisect", "bisected_icosahedron", "box",
     "channel",
     "check", "circle", "coarsen", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "density",
-    "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere", "hexagonal_lattice",
+    "ellipse", "fibonacci_sphere", "from_lonlat", "gates", "geodesic_sphere", "hexagonal_lattice",
     "interpolate", "interpolation_weights", "lat_lon_sphere", "limited_area", "locate",
     "neighbours", "operator_errors", "partition", "periodic_box", "plan", "planar_polygon", "plane",
     "polygon", "quality",

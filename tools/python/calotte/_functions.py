@@ -200,6 +200,48 @@ def quality(mesh: Grid, *, surface: SurfaceLike | None = None, density: DensityL
     return found
 
 
+@dataclass(frozen=True)
+class Gate:
+    """One demand of a model on grids, and what a grid has, of gates().
+
+    name: such as "sides of a cell, least".
+    value: the grid's worst.
+    limit: of the demand; None for a value that informs.
+    at_least: whether values below the limit fail; else those above it.
+    beyond: number of cells, or of edges, that fail.
+    cell: at which the worst is; of an edge its first cell; -1 for none.
+    """
+
+    name: str
+    value: float
+    limit: float | None
+    at_least: bool
+    beyond: int
+    cell: int
+
+    @property
+    def passed(self) -> bool:
+        """Whether no cell and no edge fails."""
+        return self.beyond == 0
+
+
+def gates(mesh: Grid, model: str, *, mask: ArrayLike | None = None) -> list[Gate]:
+    """Compares a grid of the sphere with the demands of a model, as `calotte check --for` does.
+
+    mesh: as for voronoi().
+    model: "mpas-atmosphere", "mpas-ocean" or "mpas-sw".
+    mask: bdyMaskCell of a limited area, by cell, whose rings must follow one another.
+    Returns a list of Gate. A demand that fails is a result, not an error. Raises Error.
+
+    >>> all(gate.passed for gate in gates(delaunay(bisected_icosahedron(4)), "mpas-atmosphere"))
+    True
+    """
+    radius = _units.radius_of(mesh)
+    found = _calotte.gates(voronoi(mesh), model, None if radius is None else 1000 * radius,
+                           np.empty(0, np.int32) if mask is None else np.asarray(mask, np.int32))
+    return [Gate(*gate) for gate in found]
+
+
 def operator_errors(mesh: Grid, *, surface: SurfaceLike | None = None,
                     density: DensityLike | None = None,
                     cell_width: WidthLike = None) -> OperatorErrors:

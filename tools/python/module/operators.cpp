@@ -3,11 +3,15 @@
 #include "members.h"
 #include "module.h"
 
+#include <calotte/error.h>
 #include <calotte/quality.h>
+#include <calotte/write.h>
 
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace calotte::python {
 namespace {
@@ -72,6 +76,21 @@ std::shared_ptr<OperatorErrors> errors_of_state(const py::tuple& state) {
   return errors;
 }
 
+/// \param mask empty for none.
+py::list gates_of(const Voronoi& cells, const std::string& word, std::optional<double> radius,
+                  const Ids& mask) {
+  const ModelNeeds* model = find_model(word);
+  if (model == nullptr || model->demands.least_sides == 0)
+    throw Error(ErrorCode::invalid_argument,
+                "model is \"" + word +
+                    "\"; give one with demands: mpas-atmosphere, mpas-ocean or mpas-sw");
+  py::list list;
+  for (const Gate& gate : call([&] { return gates(cells, *model, radius, mask); }))
+    list.append(
+        py::make_tuple(gate.name, gate.value, gate.limit, gate.at_least, gate.beyond, gate.cell));
+  return list;
+}
+
 } // namespace
 
 void add_operators(py::module_& module) {
@@ -102,6 +121,7 @@ void add_operators(py::module_& module) {
       .def_readonly("dual_eigenvalue", &OperatorErrors::dual_eigenvalue, "The same at vertices.")
       .def(py::pickle(&state_of_errors, &errors_of_state));
   module.def("operator_errors", &errors_of);
+  module.def("gates", &gates_of);
 }
 
 } // namespace calotte::python

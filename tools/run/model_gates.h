@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/gates.h>
+#include <calotte/mesh_file.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+/// A grid beside the demands of the model that is to read it.
+namespace calotte::tools {
+
+/// Demands with the positions of what is worst.
+struct ModelGates {
+  std::string model;       ///< its name
+  std::vector<Gate> gates; ///< none for a model without demands
+  Points2 positions;       ///< 2 x gates: longitude and latitude of Gate::cell, degrees
+};
+
+/// The mask of the cells of a limited area; empty if the file has none.
+Ids cell_mask_of(const std::string& path, std::int64_t cells);
+
+/// Compares a file's grid of the sphere with the demands.
+/// \throws Error as voronoi(file).
+ModelGates gates_of(const ModelNeeds& model, const std::string& path, const MeshFile& file);
+
+/// The same of a closed mesh. \pre the model has demands.
+ModelGates gates_of(const ModelNeeds& model, const Mesh& mesh);
+
+/// A table: the grid's worst, the limit, the number beyond it, the position.
+std::string table(const ModelGates& found);
+nlohmann::ordered_json to_json(const ModelGates& found);
+
+/// A clause on the demands that fail; empty if none does.
+std::string failure_of(const ModelGates& found);
+
+} // namespace calotte::tools
