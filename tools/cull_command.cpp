@@ -11,6 +11,7 @@
 #include "text/text.h"
 
 #include <calotte/cut.h>
+#include <calotte/field_grid.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
 #include <calotte/version.h>
@@ -34,6 +35,7 @@ struct CullRequest {
   std::vector<std::string> land, passages, barriers, seeds;
   std::string raster, raster_variable;
   RasterQuantity raster_values = RasterQuantity::height;
+  std::string heights, topography; ///< of the sea floor, in and out
   std::string field, field_file;
   std::optional<double> below, from;
   double land_fraction = CullOptions{}.land_fraction;
@@ -41,7 +43,7 @@ struct CullRequest {
   bool no_fill = false;
 
   std::vector<std::string> inputs() const {
-    std::vector<std::string> all{source, field_file, raster};
+    std::vector<std::string> all{source, field_file, raster, heights};
     for (const auto* files : {&land, &passages, &barriers})
       all.insert(all.end(), files->begin(), files->end());
     return all;
@@ -56,9 +58,16 @@ void require_request(const CullRequest& request) {
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
       request.barriers.empty())
     refuse("there is no land; give --land FILE, --raster FILE, --field NAME or --barrier FILE");
+  if (!request.topography.empty() && !request.topography.ends_with(".nc"))
+    refuse_path(request.topography,
+                "the sea floor is written to NetCDF; give a name that ends in .nc");
+  if (!request.topography.empty() && request.heights.empty() &&
+      (request.raster.empty() || request.raster_values != RasterQuantity::height))
+    refuse("--topography needs heights; give --heights FILE, or --raster FILE with heights");
   const CellMapPaths maps = cell_map_paths(request.cell_map);
   require_outputs({{"grid", request.output},
                    {"mask", request.mask},
+                   {"topography", request.topography},
                    {"map of cells", maps.forward},
                    {"map of cells back", maps.backward}},
                   request.inputs());
@@ -176,18 +185,44 @@ std::string describe_cull(const CullRequest& request, const CullOptions& options
                                         .dimensions = dimensions_of(request)});
 }
 
+/// The heights of the sea floor, if they are asked for.
+std::optional<Raster> heights_of(const CullRequest& request) {
+  if (request.topography.empty())
+    return std::nullopt;
+  return request.heights.empty()
+             ? read_raster(request.raster, {request.raster_variable, RasterQuantity::height})
+             : read_raster(request.heights, {"", RasterQuantity::height});
+}
+
+/// Writes the sea floor at the cells of the new grid. \returns a line on it.
+std::string write_topography(const CullRequest& request, const Raster& heights,
+                             const std::string& history) {
+  const FieldGrid ocean = read_field_grid(request.output, FieldChoice::none);
+  const SeaFloor floor = sea_floor(heights, ocean);
+  write_fields(request.topography, ocean, floor.fields, history);
+  return message("{}: the sea floor at {}{}\n", request.topography, counted(ocean.size(), "cell"),
+                 floor.dry == 0 ? ""
+                                : message("; {} {} no height below 0, and bed_elevation is 0 there",
+                                          floor.dry, floor.dry == 1 ? "has" : "have"));
+}
+
 void run(const CullRequest& request) {
   require_request(request);
   CullOptions options;
   CullReport report;
+  std::string topography;
   {
     Progress progress;
     progress.stage("reading the land");
     options = options_of(request);
+    const std::optional<Raster> heights = heights_of(request);
     progress.stage("culling " + request.source);
     report = cull(request.source, request.output, options);
+    progress.stage("the sea floor");
+    if (heights)
+      topography = write_topography(request, *heights, options.history);
   }
-  std::cout << describe_cull(request, options, report);
+  std::cout << describe_cull(request, options, report) << topography;
 }
 
 void add_raster(CLI::App& command, CullRequest& request) {
@@ -303,6 +338,18 @@ void add_cull(CLI::App& app) {
                      "NetCDF file of masks by global cell: cullCell and regionCellMasks, as "
                      "MPAS-Tools reads them, and landFraction.")
         ->type_name("FILE");
+    command
+        ->add_option("--topography", request->topography,
+                     "NetCDF file of the sea floor at the cells of the grid, such as "
+                     "topography_culled.nc, which the initial state of MPAS-Ocean reads: "
+                     "bed_elevation, the mean of the heights below 0 by shared areas, "
+                     "oceanFracObserved, and fields of land ice, which are 0.")
+        ->type_name("FILE");
+    command
+        ->add_option("--heights", request->heights,
+                     "Heights for --topography: a NetCDF raster in metres. Default: --raster.")
+        ->type_name("FILE")
+        ->needs("--topography");
     command
         ->add_option("--cell-map", request->cell_map,
                      "Folder for cellMapForward.txt and cellMapBackward.txt, as "

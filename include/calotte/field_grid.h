@@ -4,6 +4,7 @@
 #include <calotte/export.h>
 #include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
+#include <calotte/raster.h>
 #include <calotte/remap.h>
 
 #include <cstdint>
@@ -107,6 +108,23 @@ GridWeights read_weights(const std::string& path);
 void write_fields(const std::string& path, const FieldGrid& grid,
                   const std::vector<MeshField>& fields, const std::string& history = {},
                   const std::string& source = {});
+
+/// The sea floor at the cells of an ocean.
+struct SeaFloor {
+  /// Those of the stream topography of MPAS-Ocean's initial state: bed_elevation, the mean height
+  /// of the part of each cell where heights are below 0, metres, and oceanFracObserved, that part;
+  /// ssh, landIceDraftObserved, landIcePressureObserved, landIceThkObserved, landIceFracObserved
+  /// and landIceFloatingFracObserved, which are 0: an ocean without ice shelves.
+  std::vector<MeshField> fields = {};
+  std::int64_t dry = 0; ///< cells without such a part: their bed_elevation is 0
+};
+
+/// Takes heights to an ocean by conservative weights, as compass makes topography_culled.nc.
+/// \param heights of the sphere, metres, negative below the sea. NaN counts neither as sea nor as
+///        land.
+/// \param ocean of a mesh of the sphere, as cull() writes it.
+/// \throws Error invalid_argument for heights of a plane; as interpolation_weights().
+SeaFloor sea_floor(const Raster& heights, const FieldGrid& ocean);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -415,4 +416,46 @@ TEST_CASE("files that hold no weights, or wrong ones, are refused") {
   CHECK_THROWS_AS(read_weights(path), Error);
   FieldRaster().write(path);
   CHECK_THROWS_WITH_AS(read_weights(path), doctest::Contains("give a file of weights"), Error);
+}
+
+TEST_CASE("the sea floor keeps the area and the volume of the sea") {
+  const DoubleVector longitudes = DoubleVector::LinSpaced(72, 2.5, 357.5),
+                     latitudes = DoubleVector::LinSpaced(36, -87.5, 87.5);
+  Raster heights{longitudes, latitudes, DoubleMatrix(72, 36)};
+  for (Eigen::Index j = 0; j < 36; ++j)
+    for (Eigen::Index i = 0; i < 72; ++i)
+      heights.values(i, j) = 3000 * std::sin(0.1 * static_cast<double>(i)) - 20 * latitudes[j];
+  const LonLatBoxes boxes = lon_lat_boxes(heights);
+  double area = 0, volume = 0;
+  for (Eigen::Index j = 0; j < 36; ++j)
+    for (Eigen::Index i = 0; i < 72; ++i)
+      if (const double height = heights.values(i, j); height < 0) {
+        const double radian = std::numbers::pi / 180,
+                     box = radian * (boxes.meridians[i + 1] - boxes.meridians[i]) *
+                           (std::sin(radian * boxes.parallels[j + 1]) -
+                            std::sin(radian * boxes.parallels[j]));
+        area += box;
+        volume += box * height;
+      }
+  const Mesh mesh = delaunay(fibonacci_sphere(3000));
+  const FieldGrid ocean{.name = "mesh", .mesh = {.mesh = mesh, .has_cells = true}};
+  const SeaFloor floor = sea_floor(heights, ocean);
+  REQUIRE(floor.fields.size() == 8);
+  CHECK(floor.fields[0].name == "bed_elevation");
+  const DoubleVector &bed = floor.fields[0].values, &part = floor.fields[1].values,
+                     cells = voronoi(mesh).cell_area;
+  CHECK((cells.array() * part.array()).sum() == doctest::Approx(area).epsilon(1e-11));
+  CHECK((cells.array() * part.array() * bed.array()).sum() ==
+        doctest::Approx(volume).epsilon(1e-11));
+  CHECK(floor.dry == (part.array() == 0).count());
+  CHECK(floor.dry > 0);
+  CHECK(bed.maxCoeff() == 0);
+  CHECK(part.maxCoeff() <= 1 + 1e-12);
+  heights.values.setConstant(none);
+  heights.values(0, 0) = -5; // a box: the rest is unknown, and counts neither as sea nor as land
+  const SeaFloor known = sea_floor(heights, ocean);
+  CHECK(known.fields[0].values.minCoeff() == doctest::Approx(-5));
+  CHECK(known.fields[1].values.maxCoeff() == doctest::Approx(1));
+  heights.of_plane = true;
+  CHECK_THROWS_AS(sea_floor(heights, ocean), Error);
 }

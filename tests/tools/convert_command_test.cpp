@@ -458,6 +458,9 @@ TEST_CASE("cull: an ocean grid, and what became of its cells") {
   CHECK(bench.run("cull global.nc --field latCell --sea-below 1 --seed 0,-90 -o south.nc").code ==
         0);
   check_refusals(bench, "cull global.nc -o bad.nc", R"(
+--land land.geojson --topography floor.nc | 2 | --topography needs heights
+--land land.geojson --topography floor.txt --heights bed.nc | 2 | floor.txt
+--land land.geojson --topography floor.nc --heights no.nc | 3 | no.nc
 | 2 | there is no land; give --land FILE
 --land strait.geojson | 2 | LineString
 --land land.geojson --passage land.geojson | 2 | Polygon
