@@ -3,6 +3,7 @@
 #include "support/constants.h"
 
 #include <calotte/generators.h>
+#include <calotte/read.h>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -284,4 +285,38 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
 -o widths.png --cell-width metres.msh | 2 | the widths require 0.654413 cells, but a grid has 12 to 1073741824
 -o widths.png --cell-width alone.toml | 2 | no rule gives a width at longitude -180, latitude -90; add one that holds everywhere
 )");
+}
+
+TEST_CASE("a budget is the number of cells, the memory or the step of the model") {
+  const Bench bench;
+  const auto report = [&](const std::string& arguments) {
+    check_success(bench, "plan --cell-width rules.toml --report plan.json " + arguments);
+    return nlohmann::json::parse(bench.file("plan.json"));
+  };
+  bench.file("rules.toml",
+             "[cell-width]\nminimum = [{ by-latitude = [[-90, 300], [0, 600], [90, 300]] }]\n");
+  CHECK(report("--budget 5000-cells")["cells"] == 5000);
+  const nlohmann::json memory = report("--budget 1GiB --levels 40 --bytes-per-level 1000");
+  CHECK(memory["cells"] == (1 << 30) / 40000);
+  CHECK(memory["model"]["levels"] == 40);
+  CHECK(memory["model"]["memory_bytes"].get<double>() <= 1 << 30);
+  const nlohmann::json step = report("--budget step=600s");
+  CHECK(step["model"]["step_seconds"].get<double>() == doctest::Approx(600).epsilon(2e-3));
+  CHECK(step["model"]["step_seconds"].get<double>() >= 600);
+  CHECK(step["width_km"]["min"].get<double>() ==
+        doctest::Approx(600 * 125 / 0.9 / 0.8 / 1000).epsilon(2e-3));
+  CHECK(report("--budget step=10min")["cells"] == step["cells"]);
+  check_success(bench, "cvt --cell-width rules.toml --budget 700-cells -o mesh.nc");
+  CHECK(calotte::read_mesh(bench.path("mesh.nc")).points.cols() == 700);
+  check_refusals(bench, "plan --cell-width rules.toml", R"(
+--budget 24 | 2 | --budget 24: it has no unit
+--budget 24km | 2 | "km" is no unit here
+--budget -3GB | 2 | that is no positive number
+--budget many | 2 | that is no positive number
+--budget 1-cells | 2 | 1 cells are out of range
+--budget step=10 | 2 | it has no unit
+--budget step=1ms | 2 | "ms" is no unit here
+--budget 5000-cells --cells 5000 | 2 | --cells
+)");
+  check_refusals(bench, "plan", "--density x8 --budget step=10s | 2 | requires cell widths");
 }

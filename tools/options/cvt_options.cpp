@@ -40,13 +40,31 @@ void add_cells(CLI::App& command, CvtRequest& request) {
     if (!request.cells_of_widths)
       request.cells = std::stoi(text);
   };
+  CLI::Option* const cells =
+      command
+          .add_option_function<std::string>("--cells", set,
+                                            "Number of cells of the result, 3 to 1073741824 (on "
+                                            "the sphere >= 12), or auto: computed "
+                                            "from the cell widths, the default with --cell-width. "
+                                            "Approximate after bisections of a "
+                                            "domain with a boundary")
+          ->transform(whole_number_or_auto(3, 1 << 30));
   command
-      .add_option_function<std::string>(
-          "--cells", set,
-          "Number of cells of the result, 3 to 1073741824 (on the sphere >= 12), or auto: computed "
-          "from the cell widths, the default with --cell-width. Approximate after bisections of a "
-          "domain with a boundary")
-      ->transform(whole_number_or_auto(3, 1 << 30));
+      .add_option("--budget", request.budget,
+                  "The finest cells, by one factor on all widths, that fit the memory of a model "
+                  "(24GiB, 24GB), a number of cells (500000-cells), or the time step of "
+                  "MPAS-Atmosphere (step=10s, which needs cell widths)")
+      ->type_name("GiB|N-cells|step=S")
+      ->excludes(cells);
+  command
+      .add_option("--levels", request.memory.levels,
+                  "Levels of the model, for its memory in --budget and calotte plan; default: 55")
+      ->transform(whole_number(1, 10000));
+  command
+      .add_option("--bytes-per-level", request.memory.bytes_per_level,
+                  "Its memory for each cell and level, bytes; default: 1500, of MPAS-Atmosphere "
+                  "with numbers of 32 bits; with 64 bits give 3000")
+      ->check(CLI::Range(1.0, 1e9));
 }
 
 void add_start(CLI::App& command, CvtRequest& request) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/budget.h"
 #include "options/delaunay_options.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
@@ -25,6 +26,8 @@ struct CvtRequest {
   RegionWords part;                    ///< of the sphere
   std::optional<int> cells;            ///< of the result
   bool cells_of_widths = false;        ///< --cells auto: the number that the cell widths imply
+  std::string budget;                  ///< --budget, instead of cells; or ""
+  ModelMemory memory;                  ///< of the model, for it
   std::optional<std::string> start;    ///< default: see Start
   std::optional<std::uint64_t> seed;
   std::optional<int> bisections;

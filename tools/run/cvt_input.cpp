@@ -101,14 +101,40 @@ void require_start(const CvtRequest& request) {
   exclude(request.seed.has_value(), "--seed");
   exclude(request.insertion_rounds.has_value(), "--insertion-rounds");
   const bool widths = request.density->widths.in_km();
+  exclude(!request.budget.empty(), "--budget");
+  if (!request.budget.empty() && !widths && budget_of(request.budget, request.memory).step)
+    refuse(message("--budget {} requires cell widths; give --cell-width", request.budget));
+  if (planar(request) && !request.budget.empty())
+    refuse("--budget is for grids of the sphere; give --cells");
   if (request.cells_of_widths && !widths)
     refuse("--cells auto requires cell widths; give --cell-width, or a number of cells");
-  if (!file && !request.cells && !widths)
+  if (!file && !request.cells && request.budget.empty() && !widths)
     refuse("no start: give a file of points, or the number of cells (--cells N), or cell widths "
            "(--cell-width 60km)");
   if (request.lonlat && !file && request.fixed.empty())
     refuse("--lonlat applies to a file of points only; leave it out");
 }
+
+namespace {
+
+/// The cells that fit the budget. \pre there is one, and no number of cells.
+/// \throws Error as plan_of().
+std::int64_t cells_of_budget(const CvtRequest& request, const CvtInput& input) {
+  const Budget budget = budget_of(request.budget, request.memory);
+  if (budget.cells)
+    return *budget.cells;
+  const Schedule demanded = plan_of(input);
+  const double width = width_of_step(*budget.step, demanded.recipe.stop.least_spacing),
+               factor = width / demanded.widths->least(),
+               cells = demanded.implied_cells / (factor * factor);
+  constexpr double most = 1 << 30, least = 12;
+  if (!(cells >= least && cells <= most))
+    refuse(message("--budget {} needs {} cells, with widths from {} km on; give another step",
+                   request.budget, formatted("%.3g", cells), formatted("%.3g", width)));
+  return static_cast<std::int64_t>(cells);
+}
+
+} // namespace
 
 GridInput read_grid(const DensityWords& density, const RegionWords& part,
                     std::optional<std::int64_t> cells, std::optional<Surface> plane) {
@@ -149,6 +175,8 @@ CvtInput read_input(const CvtRequest& request) {
     recipe.start.points = read(request, request.points, "points", input.file, input.points);
   if (!request.fixed.empty())
     read_fixed(request, input);
+  if (!request.budget.empty())
+    recipe.cells = cells_of_budget(request, input);
   return input;
 }
 

@@ -121,6 +121,8 @@ GridPlan make_grid_plan(const CvtRequest& request, const CvtInput& input, const 
   plan.costs = cvt_costs(plan.cells, schedule.density, made.surface, plan.threads,
                          given_evaluations(schedule, plan.cells));
   plan.memory = machine_memory();
+  plan.of_model = request.memory;
+  plan.least_spacing = made.stop.least_spacing;
   return plan;
 }
 
@@ -155,12 +157,26 @@ std::string grid_rows(const GridPlan& plan, const Unit& unit) {
   return lines + plan_row("steepest gradient", gradient_words(plan));
 }
 
+/// The longest step of MPAS-Atmosphere, s; nothing in a plane and where the radius is not known.
+std::optional<double> step_of(const GridPlan& plan) {
+  if (!plan.radius_km)
+    return std::nullopt;
+  return longest_step(plan.spacing.least * *plan.radius_km, plan.least_spacing);
+}
+
 std::string estimate_rows(const GridPlan& plan) {
-  return message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread")) +
-         plan_row("  time of cvt", duration(plan.costs.seconds)) +
-         plan_row("  memory", memory_words(plan)) +
-         plan_row("  MPAS file (.nc)", bytes(plan.costs.mpas_file)) +
-         plan_row("  triangles (.vtp)", bytes(plan.costs.vtp_file));
+  std::string lines =
+      message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread")) +
+      plan_row("  time of cvt", duration(plan.costs.seconds)) +
+      plan_row("  memory", memory_words(plan)) +
+      plan_row("  MPAS file (.nc)", bytes(plan.costs.mpas_file)) +
+      plan_row("  triangles (.vtp)", bytes(plan.costs.vtp_file));
+  if (const std::optional<double> step = step_of(plan))
+    lines += plan_row(
+        "MPAS-Atmosphere",
+        message("steps up to {} s; {} of memory with {} levels", formatted("%.3g", *step),
+                bytes(plan.of_model.of(static_cast<double>(plan.cells))), plan.of_model.levels));
+  return lines;
 }
 
 } // namespace
@@ -243,6 +259,10 @@ std::string to_json(const GridPlan& plan) {
                        {"machine_bytes", plan.memory},
                        {"mpas_bytes", plan.costs.mpas_file},
                        {"vtp_bytes", plan.costs.vtp_file}};
+  if (const std::optional<double> step = step_of(plan))
+    json["model"] = {{"step_seconds", *step},
+                     {"levels", plan.of_model.levels},
+                     {"memory_bytes", plan.of_model.of(static_cast<double>(plan.cells))}};
   return json.dump(2) + "\n";
 }
 
