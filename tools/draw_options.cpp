@@ -12,11 +12,11 @@
 #include "options/units_option.h"
 #include "run/operator_measures.h"
 #include "text/text.h"
+#include "view_option.h"
 
 #include <CLI/App.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -24,15 +24,6 @@
 namespace calotte::tools {
 
 namespace {
-
-LonLat parse_view(const std::string& text) {
-  const auto degrees = numbers_of<2>(text);
-  require(
-      degrees && std::abs((*degrees)[0]) <= 360 && std::abs((*degrees)[1]) <= 90,
-      "--view {} is not a location; give longitude and latitude in degrees, as in --view 15,-30",
-      text);
-  return {(*degrees)[0], (*degrees)[1]};
-}
 
 constexpr std::string_view field_prefix = "field:", error_prefix = "error:";
 
@@ -143,14 +134,10 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
                          {{"globe", Projection::globe}, {"plate-carree", Projection::plate_carree}},
                          "Map projection: globe (the visible hemisphere) or plate-carree (the "
                          "whole sphere, longitude and latitude as x and y)");
-  const auto look_from = [&look](const std::string& text) { look.view = parse_view(text); };
-  command
-      .add_option_function<std::string>(
-          "--view", look_from,
-          "Centre of the map in degrees; latitude from -90 to 90. Default of globe: 15,25, or the "
-          "centre of an open mesh. plate-carree uses the latitude only where enlarged; default: "
-          "0,0")
-      ->type_name("LON,LAT");
+  add_view(command, look.view,
+           "Centre of the map in degrees; latitude from -90 to 90. Default of globe: 15,25, or the "
+           "centre of an open mesh. plate-carree uses the latitude only where enlarged; default: "
+           "0,0");
   add_zoom(command, look.zoom);
   command.add_flag(
       "--graticule", look.graticule,

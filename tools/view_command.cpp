@@ -16,6 +16,7 @@
 #include "text/text.h"
 #include "view/page.h"
 #include "view/run.h"
+#include "view_option.h"
 
 #include <calotte/error.h>
 
@@ -43,6 +44,7 @@ struct ViewRequest {
   std::optional<double> sphere_radius; ///< metres
   std::optional<std::string> units;
   std::vector<std::string> fields;
+  std::optional<LonLat> view;
   bool operators = false;
   std::string report; ///< of the run that made the mesh, or ""
   std::int64_t most_cells = ViewChoice{}.most_cells;
@@ -128,6 +130,7 @@ ViewChoice choice_of(const ViewRequest& request) {
                          request.source->plane ? surface.value_or(Surface::plane()) : Surface()),
           .fields = request.fields,
           .units = request.units,
+          .view = request.view,
           .operators = request.operators,
           .most_cells = request.most_cells};
 }
@@ -233,10 +236,15 @@ void add_content(CLI::App& command, ViewRequest& request) {
                   "states of --keep-every")
       ->type_name("REPORT");
   command
-      .add_option("--most-cells", request.most_cells,
-                  "A larger mesh is thinned to so many cells, and the ten worst of each quantity")
+      .add_option(
+          "--most-cells", request.most_cells,
+          "Of a larger mesh the page holds so many cells: a tenth around --view, or else the "
+          "smallest cell; the ten worst of each quantity and those around them; and others, "
+          "evenly spread, which it shows as dots")
       ->transform(whole_number(12, std::numeric_limits<int>::max()))
       ->capture_default_str();
+  add_view(command, request.view,
+           "Where the page opens, in degrees. Default: over the finest cells, or an open mesh");
   add_sphere_radius(command, request.sphere_radius,
                     "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
                     "default: the planet's that the file names, or --earth-radius with "
@@ -275,16 +283,20 @@ void add_view(CLI::App& app) {
       ->type_name("FILE");
   command->add_flag("--open", request->open, "Open the page in the browser");
   add_content(*command, *request);
-  add_plane(*command, *request->source)->excludes("--sphere-radius")->excludes("--units");
+  add_plane(*command, *request->source)
+      ->excludes("--sphere-radius")
+      ->excludes("--units")
+      ->excludes("--view");
   request->domain = add_domain(*command);
   request->density = add_density(*command);
   add_plan_options(*command, *request);
-  set_help(*command, {.common = {"MESH", "OTHER", "--mesh", "--at", "--output", "--open", "--field",
-                                 "--history", "--density", "--cell-width", "--plane", "--plan"},
-                      .examples = {"calotte view mesh.nc --open",
-                                   "calotte view mine.nc theirs.nc -o both.html",
-                                   "calotte view --plan --cell-width coast.geojson "
-                                   "--outside-width 120 --transition 4000 -o plan.html"}});
+  set_help(
+      *command,
+      {.common = {"MESH", "OTHER", "--mesh", "--at", "--output", "--open", "--field", "--view",
+                  "--history", "--density", "--cell-width", "--plane", "--plan"},
+       .examples = {"calotte view mesh.nc --open", "calotte view mine.nc theirs.nc -o both.html",
+                    "calotte view --plan --cell-width coast.geojson "
+                    "--outside-width 120 --transition 4000 -o plan.html"}});
   command->callback([request] { run(*request); });
 }
 

@@ -275,13 +275,42 @@ def test_finding(pages):
         check(pages.browser.run("document.getElementById('find-answer').textContent"), f"find: {text!r} is taken")
 
 
-def test_thinned_triangles(pages):
-    """The filter of obtuse triangles, where the page has angles of cells only."""
-    pages.open("thinned", "uniform.nc", "--most-cells", "500")
+def test_part(pages):
+    """A page of a part of the cells shows true cells, with their true neighbours, or dots."""
+    pages.open("whole", "x8.nc")
+    worst = {name: pages.browser.asynchronous("calotte.worst(arguments[0])", name)
+             for name in ("quality", "angle", "dc_h_least", "spacing")}
+    pages.open("part", "x8.nc", "--most-cells", "4000", "--view", "-90,30")
+    for name, ids in worst.items():
+        check(pages.browser.asynchronous("calotte.worst(arguments[0])", name) == ids, f"part: other worst by {name}")
+    data = netCDF4.Dataset("x8.nc")
+    sides, around = data["nEdgesOnCell"][:], data["cellsOnCell"][:] - 1
+    seen, next_ones, whole = set(), [], 0
+    pages.browser.run("(calotte.turn(-90, 30, 20), calotte.clickAt(-90, 30))")
+    next_ones = [pages.browser.asynchronous("calotte.idle().then(calotte.picked)")["cell"], *worst["quality"]]
+    while next_ones and len(seen) < 300:
+        cell = next_ones.pop(0)
+        if cell in seen:
+            continue
+        seen.add(cell)
+        found = pages.browser.asynchronous("calotte.pick(arguments[0])", cell)["neighbours"]
+        if found:
+            whole += 1
+            check(sorted(found) == sorted(around[cell][:sides[cell]]), f"part: cell {cell} has neighbours {found}")
+        next_ones += found
+    check(whole > 200, f"part: {whole} cells of {len(seen)} have neighbours")
+    pages.browser.run("calotte.turn(90, -30, 20)")
+    colours = pages.browser.asynchronous("calotte.coloursAt(arguments[0])",
+                                         [[90 + x / 4, -30 + y / 4] for x in range(-8, 8) for y in range(-8, 8)])
+    globe = max(colours, key=colours.count)
+    check(colours.count(globe) > 128, "part: cells without shapes cover the globe")
+    for name in ("obtuse", "all"):
+        pages.browser.asynchronous("calotte.filter(arguments[0])", name)
+    check(pages.browser.run("[...document.getElementById('filter').options].find(o => o.value === 'pairs').disabled"),
+          "part: pairs of neighbours are looked for")
     pages.browser.asynchronous("calotte.shapes('triangles')")
-    before = pages.browser.run("calotte.pixels()")["checksum"]
-    pages.browser.asynchronous("calotte.filter('obtuse')")
-    check(pages.browser.run("calotte.pixels()")["checksum"] != before, "thinned: the filter shows all triangles")
+    pages.check_picture("part, triangles")
+    pages.check_quiet("part")
 
 
 def test_far_ocean(pages):
@@ -348,7 +377,7 @@ def main(path):
         sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
     tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random,
              test_polygon_of_many_sides, test_two_and_states, test_finding,
-             test_thinned_triangles, test_far_ocean, test_triangles_beside_polygons, test_plan, test_keyboard_and_table]
+             test_part, test_far_ocean, test_triangles_beside_polygons, test_plan, test_keyboard_and_table]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         make_meshes(calotte)

@@ -344,28 +344,41 @@ TEST_CASE("fields of great and tiny values, and of great codes") {
   CHECK(page.integers(codes["values"]) == std::vector<std::int32_t>{0, 2, 1});
 }
 
-TEST_CASE("a thinned open mesh does not reach beyond its sites") {
+TEST_CASE("a part of a mesh has whole shapes of the file, or none") {
   const Bench bench;
   make(bench, "cvt --region circle=-105,40,1000km --cell-width 60km --limited-area -o area.nc");
-  const HtmlPage page = make_page(bench, "area.nc --most-cells 100");
-  const auto sites = coordinates(page, page.mesh(), page.mesh()["points"]);
-  const std::vector<std::int32_t> ids = page.integers(page.mesh()["triangles"]);
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> opposite; // of each directed side
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    const std::size_t t = k / 3 * 3;
-    opposite[{ids[t + (k + 1) % 3], ids[t + (k + 2) % 3]}] = k;
-  }
-  for (const auto& [side, k] : opposite) {
-    if (opposite.contains({side.second, side.first}))
-      continue;
-    double product = 0; // of the arms at the corner opposite a side of the boundary
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double apex = sites[static_cast<std::size_t>(ids[k])][d];
-      product += (sites[static_cast<std::size_t>(side.first)][d] - apex) *
-                 (sites[static_cast<std::size_t>(side.second)][d] - apex);
+  const HtmlPage all = make_page(bench, "area.nc"),
+                 page = make_page(bench, "area.nc --most-cells 100 --view -105,40");
+  CHECK(page.mesh()["home"]["lon"].get<double>() == doctest::Approx(-105));
+  CHECK(page.mesh()["home"]["lat"].get<double>() == doctest::Approx(40));
+  const auto shapes_of = [](const HtmlPage& of) {
+    const auto corners = coordinates(of, of.mesh(), of.mesh()["corners"]);
+    const std::vector<std::int32_t> ring = of.integers(of.mesh()["ring"]);
+    std::vector<std::vector<std::vector<double>>> shapes;
+    std::size_t next = 0;
+    for (const std::int32_t sides : of.integers(of.mesh()["sides"])) {
+      shapes.emplace_back();
+      for (std::int32_t k = 0; k < sides; ++k)
+        shapes.back().push_back(corners[static_cast<std::size_t>(ring[next++])]);
     }
-    CHECK(product > -1e-9);
+    return shapes;
+  };
+  const auto whole = shapes_of(all), part = shapes_of(page);
+  const std::vector<std::int32_t> number = page.integers(page.mesh()["number"]);
+  REQUIRE(part.size() == number.size());
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (part[i].empty())
+      continue;
+    ++shown;
+    const auto& expected = whole[static_cast<std::size_t>(number[i])];
+    REQUIRE(part[i].size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      for (std::size_t d = 0; d < 3; ++d)
+        CHECK(part[i][k][d] == doctest::Approx(expected[k][d]).epsilon(1e-6));
   }
+  CHECK(shown >= 10);
+  CHECK(shown < part.size());
 }
 
 TEST_CASE("names from files are data, never markup") {
@@ -395,7 +408,8 @@ grid.vtp --plan --cell-width 60km | 2 | --plan shows widths before there is a me
 --plan | 2 | a density has no unit; give --cells N, or widths in km (--cell-width 60km)
 --plan --cell-width 60km --field nope | 2 | --plan shows widths on the sphere; leave out --field, --mesh, --at,
 --plan --cell-width 60km --sphere-radius earth | 2 | widths in km refer to --earth-radius; give it in place of
-box.nc --most-cells 12 | 2 | --most-cells
+grid.vtp --view 1,91 | 2 | --view 1,91 is not a location; give longitude and latitude in degrees
+box.nc --plane --view 1,2 | 2 | --view excludes --plane
 grid.vtp -o grid.vtp | 2 | grid.vtp is both input and output; give the output another name
 grid.vtp --field nope | 2 | --field nope: the file has no such field, or one with several numbers
 missing.vtp | 3 | missing.vtp

@@ -3,6 +3,7 @@
 
 #include "draw/coastlines.h"
 #include "draw/scale.h"
+#include "draw/shapes.h"
 #include "text/text.h"
 #include "view/pack.h"
 #include "view/page_parts.h"
@@ -178,8 +179,10 @@ Json add_mesh(const ViewMesh& mesh, Blocks& blocks) {
                {"number", nullptr},
                {"law", law_of(mesh)},
                {"measures", Json::array()}};
-  if (mesh.home)
-    json["home"] = {{"lon", mesh.home->longitude}, {"lat", mesh.home->latitude}};
+  if (mesh.home && mesh.on_sphere) {
+    const LonLat home = lonlat_of(*mesh.home);
+    json["home"] = {{"lon", home.longitude}, {"lat", home.latitude}};
+  }
   if (mesh.triangles.cols() > 0)
     json["triangles"] =
         blocks.add({mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size()}, 3);

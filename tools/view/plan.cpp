@@ -70,10 +70,8 @@ ViewPage plan_page(const PlannedGrid& grid) {
   mesh.notice = message(
       "The widths that the options prescribe, at {} places; no grid is made yet. ", mesh.cells);
   Eigen::Index finest = 0;
-  if (widths.minCoeff(&finest) < widths.maxCoeff()) {
-    const Points2 at = to_lonlat(sphere.points.col(finest));
-    mesh.home = {at(0, 0), at(1, 0)};
-  }
+  if (widths.minCoeff(&finest) < widths.maxCoeff())
+    mesh.home = sphere.points.col(finest);
   mesh.quantities = quantities_of(sphere, widths, grid.lengths);
   page.meshes.push_back(std::move(mesh));
   return page;

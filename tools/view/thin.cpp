@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw/shapes.h"
+#include "options/numbers.h"
 #include "text/text.h"
 #include "view/view_mesh.h"
 
-#include <calotte/delaunay.h>
-#include <calotte/error.h>
-
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -14,74 +14,13 @@
 namespace calotte::tools {
 namespace {
 
-constexpr std::size_t worst_kept = 10;
+constexpr std::int64_t worst_kept = 10; ///< of each quantity, as the page lists
+constexpr std::int64_t parts = 10;      ///< the cells around a place are one of so many
 
-/// The bits of a coordinate of 21 bits, two positions apart.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32U) & 0x1f00000000ffffU;
-  x = (x | x << 16U) & 0x1f0000ff0000ffU;
-  x = (x | x << 8U) & 0x100f00f00f00f00fU;
-  x = (x | x << 4U) & 0x10c30c30c30c30c3U;
-  return (x | x << 2U) & 0x1249249249249249U;
-}
+/// By cell, whether it is one of them.
+using Cells = std::vector<bool>;
 
-constexpr unsigned bits = 21; ///< of a coordinate
-
-/// Sites along a Z-order curve.
-class Curve {
-public:
-  Curve(const Points3& points, std::int64_t sites) : points_(points) {
-    low_ = points.rowwise().minCoeff();
-    const double side = (points.rowwise().maxCoeff() - low_).maxCoeff();
-    unit_ = side > 0 ? ((1U << bits) - 1) / side : 0;
-    for (std::int32_t i = 0; i < sites; ++i)
-      keys_.emplace_back(key_of((unit_ * (points.col(i) - low_)).array()), i);
-    std::sort(keys_.begin(), keys_.end());
-  }
-
-  std::int32_t operator[](std::int64_t k) const {
-    return keys_[static_cast<std::size_t>(k)].second;
-  }
-
-  /// Whether there is a site within a distance of a point.
-  bool reaches(const Eigen::Vector3d& point, double distance) const {
-    // A cube of the curve at least as wide, so that two in each direction hold what is near.
-    unsigned level = 0;
-    while (level < bits && static_cast<double>(1U << level) < unit_ * 2 * distance)
-      ++level;
-    const double most = (1U << bits) - 1;
-    const Eigen::Array3d middle = (unit_ * (point - low_)).array();
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Array3d way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const Eigen::Array3d at = (middle + unit_ * distance * way).max(0).min(most);
-      if (holds(key_of(at) >> 3 * level << 3 * level, level, point, distance))
-        return true;
-    }
-    return false;
-  }
-
-private:
-  static std::uint64_t key_of(const Eigen::Array3d& at) {
-    return spread(static_cast<std::uint64_t>(at.x())) |
-           spread(static_cast<std::uint64_t>(at.y())) << 1U |
-           spread(static_cast<std::uint64_t>(at.z())) << 2U;
-  }
-
-  bool holds(std::uint64_t first, unsigned level, const Eigen::Vector3d& point,
-             double distance) const {
-    const std::uint64_t last = first + ((std::uint64_t{1} << 3 * level) - 1);
-    for (auto next = std::lower_bound(keys_.begin(), keys_.end(), std::pair(first, INT32_MIN));
-         next != keys_.end() && next->first <= last; ++next)
-      if ((points_.col(next->second) - point).squaredNorm() <= distance * distance)
-        return true;
-    return false;
-  }
-
-  const Points3& points_;
-  Eigen::Vector3d low_;
-  double unit_ = 0; ///< steps of a coordinate in a unit
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keys_;
-};
+std::int64_t count(const Cells& cells) { return std::count(cells.begin(), cells.end(), true); }
 
 /// How bad a value is: the larger, the worse.
 double badness(const Quantity& quantity, double value) {
@@ -95,174 +34,200 @@ double badness(const Quantity& quantity, double value) {
   case Worst::far_from_reference:
     return std::abs(value - quantity.reference);
   case Worst::none:
-    break;
+    break; // the page lists the greatest
   }
-  return -HUGE_VAL;
+  return value;
 }
 
-void add_worst(const Quantity& quantity, std::vector<std::int32_t>& cells) {
-  if (quantity.on_triangles || quantity.worst == Worst::none)
-    return;
-  std::vector<std::int32_t> all(static_cast<std::size_t>(quantity.values.size()));
+/// Adds the cells that are first in an order. \param before a total order of cells.
+template <class Before> void add_first(Cells& cells, std::int64_t wanted, const Before& before) {
+  std::vector<std::int32_t> all(cells.size());
   std::iota(all.begin(), all.end(), 0);
-  const std::size_t count = std::min(worst_kept, all.size());
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
-                    [&](std::int32_t a, std::int32_t b) {
-                      const double of_a = badness(quantity, quantity.values[a]),
-                                   of_b = badness(quantity, quantity.values[b]);
-                      return of_a > of_b || (of_a == of_b && a < b);
-                    });
-  cells.insert(cells.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  const auto end = all.begin() + std::min(wanted, std::ssize(all));
+  std::nth_element(all.begin(), end, all.end(), before);
+  for (auto cell = all.begin(); cell != end; ++cell)
+    cells[static_cast<std::size_t>(*cell)] = true;
 }
 
-/// The cells to keep, in rising order.
-std::vector<std::int32_t> kept_cells(const ViewMesh& mesh, const Curve& order, std::int64_t most) {
-  std::vector<std::int32_t> kept;
+Cells worst_cells(const ViewMesh& mesh) {
+  Cells cells(static_cast<std::size_t>(mesh.cells));
   for (const Quantity& quantity : mesh.quantities)
-    add_worst(quantity, kept);
-  const std::int64_t others = std::max<std::int64_t>(12, most - std::ssize(kept));
-  for (std::int64_t k = 0; k < others; ++k)
-    kept.push_back(order[k * mesh.cells / others]);
+    if (!quantity.on_triangles && !(quantity.classes && quantity.worst == Worst::none))
+      add_first(cells, worst_kept, [&](std::int32_t a, std::int32_t b) {
+        const double of_a = badness(quantity, quantity.values[a]),
+                     of_b = badness(quantity, quantity.values[b]);
+        return of_a > of_b || (of_a == of_b && a < b);
+      });
+  return cells;
+}
+
+/// The cells nearest to a place.
+Cells cells_around(const ViewMesh& mesh, const Eigen::Vector3d& place, std::int64_t wanted) {
+  const DoubleVector square =
+      (mesh.points.leftCols(mesh.cells).colwise() - place).colwise().squaredNorm();
+  Cells cells(static_cast<std::size_t>(mesh.cells));
+  add_first(cells, wanted, [&](std::int32_t a, std::int32_t b) {
+    return std::pair(square[a], a) < std::pair(square[b], b);
+  });
+  return cells;
+}
+
+/// The cell that a point is the site of, or a copy of it.
+std::int32_t cell_of(const ViewMesh& mesh, std::int32_t point) {
+  return point < mesh.cells ? point : mesh.copied[static_cast<std::size_t>(point - mesh.cells)];
+}
+
+bool contains(const Cells& cells, std::int32_t cell) {
+  return cells[static_cast<std::size_t>(cell)];
+}
+
+/// Cells and all that share a triangle with one of them.
+Cells grown(const ViewMesh& mesh, const Cells& cells) {
+  Cells result = cells;
+  for (const auto& triangle : mesh.triangles.colwise()) {
+    const Eigen::Vector3i at =
+        triangle.unaryExpr([&](std::int32_t point) { return cell_of(mesh, point); });
+    if (std::any_of(at.begin(), at.end(), [&](std::int32_t i) { return contains(cells, i); }))
+      for (const std::int32_t cell : at)
+        result[static_cast<std::size_t>(cell)] = true;
+  }
+  return result;
+}
+
+/// Rows of cells around some, as long as there are not more than so many.
+Cells with_rows(const ViewMesh& mesh, Cells cells, std::int64_t most) {
+  for (;;) {
+    Cells next = grown(mesh, cells);
+    if (const std::int64_t wider = count(next); wider > most || wider == count(cells))
+      return cells;
+    cells = std::move(next);
+  }
+}
+
+/// Where cells are smallest.
+Eigen::Vector3d finest_place(const ViewMesh& mesh) {
+  Eigen::Index finest = 0;
+  for (const Quantity& quantity : mesh.quantities)
+    if (quantity.name == "area")
+      for (Eigen::Index i = 0; i < quantity.values.size(); ++i)
+        if (!(quantity.values[i] >= quantity.values[finest]) && std::isfinite(quantity.values[i]))
+          finest = i;
+  return mesh.points.col(finest);
+}
+
+/// Cells along a space-filling curve.
+std::vector<std::int32_t> along_curve(const ViewMesh& mesh,
+                                      const std::vector<std::int32_t>& cells) {
+  Mesh sites;
+  sites.points = mesh.points(Eigen::all, cells);
+  sites.surface = mesh.on_sphere ? Surface::sphere() : Surface::plane();
+  sites.site_of_input.resize(cells.size());
+  std::iota(sites.site_of_input.begin(), sites.site_of_input.end(), 0);
+  const Mesh in_order = renumbered(sites, Numbering::curve);
+  std::vector<std::int32_t> order(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    order[static_cast<std::size_t>(in_order.site_of_input[i])] = cells[i];
+  return order;
+}
+
+/// The cells of `whole`, and so many of the others, evenly spread, in rising order.
+std::vector<std::int32_t> kept_cells(const ViewMesh& mesh, const Cells& whole,
+                                     std::int64_t spread) {
+  std::vector<std::int32_t> kept, others;
+  for (std::int32_t cell = 0; cell < mesh.cells; ++cell)
+    (contains(whole, cell) ? kept : others).push_back(cell);
+  others = along_curve(mesh, others);
+  spread = std::min(spread, std::ssize(others));
+  for (std::int64_t k = 0; k < spread; ++k)
+    kept.push_back(others[static_cast<std::size_t>(k * std::ssize(others) / spread)]);
   std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   return kept;
 }
 
-/// Whether the circumcentre of a triangle lies beyond a side without neighbour.
-bool bulges_out(const Mesh& mesh, Eigen::Index t, const std::vector<bool>& left_out) {
-  for (Eigen::Index v = 0; v < 3; ++v) {
-    const std::int32_t across = mesh.neighbours(v, t);
-    if (across >= 0 && !left_out[static_cast<std::size_t>(across)])
-      continue;
-    const Eigen::Vector3d apex = mesh.points.col(mesh.triangles(v, t)),
-                          next = mesh.points.col(mesh.triangles((v + 1) % 3, t)),
-                          last = mesh.points.col(mesh.triangles((v + 2) % 3, t));
-    if ((next - apex).dot(last - apex) < 0) // opposite the side, an obtuse angle
-      return true;
+/// Leaves out triangles with another corner than these cells, and then points that are not kept.
+void keep_points(ViewMesh& mesh, const Cells& whole) {
+  const Eigen::Index triangles = mesh.triangles.cols();
+  Eigen::Index kept = 0;
+  for (Eigen::Index t = 0; t < triangles; ++t) {
+    const Eigen::Vector3i at = mesh.triangles.col(t);
+    if (std::all_of(at.begin(), at.end(),
+                    [&](std::int32_t point) { return contains(whole, cell_of(mesh, point)); }))
+      mesh.triangles.col(kept++) = at;
   }
-  return false;
-}
-
-/// How far each cell of a mesh of the sphere may reach from its site; none for a mesh that covers
-/// the sphere.
-DoubleVector reaches_of(const ViewMesh& mesh) {
-  DoubleVector reach = DoubleVector::Zero(mesh.cells);
-  if (mesh.triangles.cols() == 2 * mesh.cells - 4)
-    return {};
-  if (mesh.shapes) {
-    const Polygons& cells = *mesh.shapes;
-    for (std::int64_t i = 0; i < mesh.cells; ++i)
-      for (const std::int32_t corner : cells.ids[i])
-        reach[i] = std::max(reach[i],
-                            (cells.corners.col(corner).normalized() - mesh.points.col(i)).norm());
-    return reach;
+  mesh.triangles.conservativeResize(3, kept);
+  std::vector<std::int32_t> place(static_cast<std::size_t>(mesh.points.cols()), -1), from, copied;
+  for (const std::int32_t cell : mesh.number) {
+    place[static_cast<std::size_t>(cell)] = static_cast<std::int32_t>(from.size());
+    from.push_back(cell);
   }
-  for (const auto& triangle : mesh.triangles.colwise())
-    for (int v = 0; v < 3; ++v) {
-      const std::int32_t a = triangle[v], b = triangle[(v + 1) % 3];
-      const double side = (mesh.points.col(a) - mesh.points.col(b)).norm();
-      reach[a] = std::max(reach[a], side);
-      reach[b] = std::max(reach[b], side);
+  for (std::int32_t& point : mesh.triangles.reshaped()) {
+    std::int32_t& at = place[static_cast<std::size_t>(point)];
+    if (at < 0) { // a copy
+      at = static_cast<std::int32_t>(from.size());
+      from.push_back(point);
+      copied.push_back(place[static_cast<std::size_t>(cell_of(mesh, point))]);
     }
-  return reach;
-}
-
-/// Whether the cells of a mesh cover a triangle of some of its sites: its middle and those of its
-/// sides are as near a site as the cells of the corners reach.
-bool is_covered(const Eigen::Vector3i& sites, const ViewMesh& mesh, const Curve& curve,
-                const DoubleVector& reach) {
-  const Eigen::Vector3d a = mesh.points.col(sites[0]), b = mesh.points.col(sites[1]),
-                        c = mesh.points.col(sites[2]);
-  const double near = reach(sites).maxCoeff();
-  const auto covered = [&](const Eigen::Vector3d& point) {
-    return curve.reaches(point.normalized(), near);
-  };
-  return covered(a + b + c) && covered(a + b) && covered(b + c) && covered(c + a);
-}
-
-/// Leaves out the triangles that fill bays of the boundary that the others have: cells at them
-/// would reach far beyond the sites.
-void leave_out_bays(const Mesh& mesh, std::vector<bool>& left_out) {
-  std::vector<std::int32_t> open(left_out.size());
-  std::iota(open.begin(), open.end(), 0);
-  while (!open.empty()) {
-    const std::int32_t t = open.back();
-    open.pop_back();
-    if (t < 0 || left_out[static_cast<std::size_t>(t)] || !bulges_out(mesh, t, left_out))
-      continue;
-    left_out[static_cast<std::size_t>(t)] = true;
-    for (const std::int32_t across : mesh.neighbours.col(t))
-      open.push_back(across);
+    point = at;
   }
+  mesh.points = Points3(mesh.points(Eigen::all, from));
+  mesh.copied = std::move(copied);
 }
 
-/// The triangulation of kept sites, its corners by column, although equal columns are one site;
-/// without triangles that the cells of the whole mesh do not cover.
-Triangles triangles_of(const Points3& points, const ViewMesh& whole, const Curve& curve) {
-  const Mesh mesh = delaunay(points);
-  std::vector<std::int32_t> column(static_cast<std::size_t>(mesh.points.cols()));
-  for (auto i = std::ssize(mesh.site_of_input); i-- > 0;)
-    column[static_cast<std::size_t>(mesh.site_of_input[static_cast<std::size_t>(i)])] =
-        static_cast<std::int32_t>(i);
-  const Triangles corners = mesh.triangles.unaryExpr(
-      [&](std::int32_t site) { return column[static_cast<std::size_t>(site)]; });
-  std::vector<bool> left_out(static_cast<std::size_t>(corners.cols()));
-  if (const DoubleVector reach = reaches_of(whole); reach.size() > 0)
-    for (Eigen::Index t = 0; t < corners.cols(); ++t)
-      left_out[static_cast<std::size_t>(t)] =
-          !is_covered(corners.col(t).unaryExpr([&](std::int32_t i) {
-            return whole.number[static_cast<std::size_t>(i)];
-          }),
-                      whole, curve, reach);
-  leave_out_bays(mesh, left_out);
-  Triangles kept(3, std::count(left_out.begin(), left_out.end(), false));
-  for (Eigen::Index t = 0, next = 0; t < corners.cols(); ++t)
-    if (!left_out[static_cast<std::size_t>(t)])
-      kept.col(next++) = corners.col(t);
-  return kept;
-}
-
-/// \throws Error invalid_argument where so few sites do not fill a periodic box.
-Mesh planar_mesh(const Points3& points, const Surface& surface) {
-  try {
-    return delaunay(points, surface);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_few_sites || !surface.is_box())
-      throw;
-    refuse(message("{} cells are too few for the periodic box; give a greater number to "
-                   "--most-cells",
-                   points.cols()));
+/// The shapes of kept cells; without corners for those that are not whole.
+void keep_shapes(ViewMesh& mesh, const Cells& whole) {
+  const Polygons& all = *mesh.shapes;
+  std::vector<std::int32_t> place(static_cast<std::size_t>(all.corners.cols()), -1), from, ids;
+  Polygons shapes;
+  shapes.surface = all.surface;
+  shapes.ids.begin.setZero(std::ssize(mesh.number) + 1);
+  for (Eigen::Index k = 0; k < std::ssize(mesh.number); ++k) {
+    const std::int32_t cell = mesh.number[static_cast<std::size_t>(k)];
+    if (contains(whole, cell))
+      for (const std::int32_t corner : all.ids[cell]) {
+        std::int32_t& at = place[static_cast<std::size_t>(corner)];
+        if (at < 0) {
+          at = static_cast<std::int32_t>(from.size());
+          from.push_back(corner);
+        }
+        ids.push_back(at);
+      }
+    shapes.ids.begin[k + 1] = std::ssize(ids);
   }
+  shapes.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  shapes.corners = Points3(all.corners(Eigen::all, from));
+  mesh.shapes = std::move(shapes);
+}
+
+std::string words_of(const ViewMesh& mesh, const Eigen::Vector3d& place) {
+  if (!mesh.on_sphere)
+    return message("{}, {}", formatted("%.4g", place.x()), formatted("%.4g", place.y()));
+  const LonLat at = lonlat_of(place);
+  return lonlat_words(at.longitude, at.latitude);
 }
 
 } // namespace
 
-void thin(ViewMesh& mesh, const Surface& surface, std::int64_t most) {
-  const Curve curve(mesh.points, mesh.cells);
-  mesh.number = kept_cells(mesh, curve, most);
-  const auto n = std::ssize(mesh.number);
-  Points3 points(3, n);
-  for (std::int64_t i = 0; i < n; ++i)
-    points.col(i) = mesh.points.col(mesh.number[static_cast<std::size_t>(i)]);
+void thin(ViewMesh& mesh, std::int64_t most) {
+  const Eigen::Vector3d place = mesh.home.value_or(finest_place(mesh));
+  mesh.home = place;
+  Cells whole = cells_around(mesh, place, most / parts);
+  const Cells worst = with_rows(mesh, worst_cells(mesh), most / parts);
+  std::transform(whole.begin(), whole.end(), worst.begin(), whole.begin(), std::logical_or<>());
+  mesh.number = kept_cells(mesh, whole, std::max<std::int64_t>(1, most - count(whole)));
+  if (mesh.shapes)
+    keep_shapes(mesh, whole);
+  keep_points(mesh, whole);
   std::erase_if(mesh.quantities, [](const Quantity& quantity) { return quantity.on_triangles; });
-  for (Quantity& quantity : mesh.quantities) {
-    DoubleVector values(n);
-    for (std::int64_t i = 0; i < n; ++i)
-      values[i] = quantity.values[mesh.number[static_cast<std::size_t>(i)]];
-    quantity.values = std::move(values);
-  }
-  if (surface.is_sphere())
-    mesh.triangles = triangles_of(points, mesh, curve);
-  mesh.cells = n;
-  mesh.shapes.reset();
-  if (surface.is_sphere())
-    mesh.points = std::move(points);
-  else
-    set_plane(mesh, planar_mesh(points, surface));
-  mesh.notice +=
-      message("The page shows {} of {} cells, evenly spread, and the worst ones; they are "
-              "drawn larger. The table is of all cells. ",
-              n, mesh.total);
+  for (Quantity& quantity : mesh.quantities)
+    quantity.values = DoubleVector(quantity.values(mesh.number));
+  mesh.cells = std::ssize(mesh.number);
+  mesh.notice += message(
+      "The page holds {} of {} cells: all around {}, the worst and those around them, and others, "
+      "evenly spread, as dots. {}calotte info --cell N prints any cell. Bars and marks count what "
+      "the "
+      "page holds, the table all. ",
+      spaced(mesh.cells), spaced(mesh.total), words_of(mesh, place),
+      mesh.on_sphere ? "calotte view --view LON,LAT holds another place. " : "");
 }
 
 } // namespace calotte::tools

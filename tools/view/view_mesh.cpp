@@ -2,6 +2,7 @@
 #include "view/view_mesh.h"
 
 #include "draw/plane.h"
+#include "draw/shapes.h"
 #include "draw/values.h"
 #include "text/text.h"
 
@@ -214,14 +215,11 @@ ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& cho
     set_plane(mesh, *file.mesh);
   else
     set_sphere(file, mesh);
+  if (mesh.on_sphere && choice.view)
+    mesh.home = direction_of(*choice.view);
   if (mesh.cells <= choice.most_cells)
     return mesh;
-  if (walled)
-    refuse_path(name,
-                "it has more than the {} cells that a page holds, and a plane with walls is not "
-                "thinned; raise the number",
-                choice.most_cells);
-  thin(mesh, file.mesh ? file.mesh->surface : Surface::sphere(), choice.most_cells);
+  thin(mesh, choice.most_cells);
   return mesh;
 }
 

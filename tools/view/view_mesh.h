@@ -23,9 +23,9 @@ struct ViewMesh {
   bool on_sphere = true;
   std::optional<double> radius_km = {}; ///< of the sphere
   std::int64_t cells = 0;
-  std::int64_t total = 0;          ///< cells of the file's mesh, of which these are a part
-  std::int64_t planned = 0;        ///< of a plan: cells of the grid
-  std::optional<LonLat> home = {}; ///< where the page opens; by default by the sites
+  std::int64_t total = 0;   ///< cells of the file's mesh; these are a part of them, see thin()
+  std::int64_t planned = 0; ///< of a plan: cells of the grid
+  std::optional<Eigen::Vector3d> home = {}; ///< where the page opens; by default by the sites
   /// 3 x p, p >= cells: the sites, unit columns, then other corners of triangles. In a plane z = 0.
   Points3 points = {};
   std::vector<std::int32_t> copied = {}; ///< by point from `cells` on: the site that it copies
@@ -45,6 +45,7 @@ struct ViewChoice {
   std::vector<std::string> fields = {}; ///< names; by default the first ones of the file
   std::optional<double> radius_km = {};
   std::optional<std::string> units = {};
+  std::optional<LonLat> view = {};   ///< where the page opens, and a larger mesh is whole
   bool operators = false;            ///< adds the errors of operators
   std::int64_t most_cells = 1000000; ///< larger meshes are thinned
 };
@@ -57,9 +58,11 @@ ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& cho
 /// \throws Error invalid_argument if the mesh does not have it.
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell);
 
-/// Keeps some of the cells, evenly spread, and the ten worst of each quantity; triangulates them.
-/// \param surface of the mesh; in a plane its rings clip the cells.
-void thin(ViewMesh& mesh, const Surface& surface, std::int64_t most);
+/// Keeps a part of a mesh: a tenth of `most` around its home, or else its smallest cell; the ten
+/// worst cells of each quantity with rows around them; and others, evenly spread. Those around the
+/// home and the worst keep their triangles and shapes. The others have none, so that nothing is
+/// shown that the mesh does not have.
+void thin(ViewMesh& mesh, std::int64_t most);
 
 /// Sets the shapes of the cells of a mesh of the plane, and its triangles, whose corners in a
 /// periodic plane are next to each other. \param planar the sites and their triangles.

@@ -174,7 +174,8 @@ export class App extends Emitter {
     for (const measure of mesh.measures) {
       if (measure.on === "cells") values[measure.name] = (await mesh.values(measure.name))[cell];
     }
-    const neighbours = topology ? topology.neighbours(cell) : [];
+    const found = topology ? topology.neighbours(cell) : [];
+    const neighbours = mesh.part && found.length !== values.degree ? [] : found; // the page lacks some
     return {
       cell: mesh.fileIndex(cell),
       ...mesh.placeOf(mesh.site(cell)),

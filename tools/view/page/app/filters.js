@@ -15,7 +15,7 @@ export const filters = [
 /** Whether a filter can be applied to all of these meshes. */
 export function filterWorks(name, meshes) {
   if (name === "obtuse") return meshes.every((m) => m.measure("angle") || m.measure("triangle_angle"));
-  if (name === "pairs") return meshes.every((m) => m.measure("degree"));
+  if (name === "pairs") return meshes.every((m) => m.measure("degree") && !m.part); // a part lacks neighbours
   return true;
 }
 

@@ -4,6 +4,9 @@ import { cellAt, nearestCell } from "../scene/nearest.js";
 import { shapesOf } from "../scene/shapes.js";
 import { worstOf } from "./worst.js";
 
+/** Pixels from a cell without a shape at which a click picks it. */
+const dotReach = 8;
+
 export class Selection {
   /** @param stage, navigation null where nothing can be drawn. */
   constructor(app, stage, navigation) {
@@ -21,7 +24,8 @@ export class Selection {
     const place = hit.view.camera.unproject(hit.x, hit.y, width, height);
     const set = await hit.view.setOf("cells");
     await set.shapes.prepare();
-    const cell = place ? cellAt(set, place) : -1;
+    const dot = dotReach / hit.view.camera.frame(width, height).scale;
+    const cell = place ? cellAt(set, place, dot) : -1;
     if (cell < 0) this.clear();
     else this.pickCell(hit.k, cell);
     return cell;

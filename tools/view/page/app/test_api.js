@@ -5,6 +5,7 @@
  */
 import { unitVector } from "../data/vector.js";
 import { offsetOf } from "../gl/context.js";
+import { project } from "../stage/camera.js";
 import { markRanges } from "./marking.js";
 import { worstOf } from "./worst.js";
 
@@ -40,11 +41,12 @@ export function makeTestApi({ app, stage, selection, messages, ready }) {
       const ids = worstOf(measure, await mesh.values(name));
       return measure.on === "cells" ? ids.map((id) => mesh.fileIndex(id)) : ids;
     },
-    ...(stage ? drawingApi(app, stage) : {}),
+    idle: () => app.idle(),
+    ...(stage ? drawingApi(app, stage, selection) : {}),
   };
 }
 
-function drawingApi(app, stage) {
+function drawingApi(app, stage, selection) {
   const settled = async () => {
     await app.idle();
     await stage.settled();
@@ -67,6 +69,12 @@ function drawingApi(app, stage) {
         if (zoom) camera.setZoom(zoom);
       }
       stage.redraw();
+    },
+    /** Picks what is at a longitude and latitude in sight, as a click does. */
+    clickAt(lon, lat) {
+      const { width, height } = stage.windows()[0];
+      const { x, y } = project(stage.views[0].camera.frame(width, height), unitVector(lon, lat));
+      return app.track(selection.pickAt(x + width / 2, y + height / 2));
     },
     frame: () => timed(() => stage.draw(stage.pace.wholeRule)),
     /** Mean ms of frames of a turning globe, after a few that adapt the fineness. */

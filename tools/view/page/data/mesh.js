@@ -19,6 +19,11 @@ export class Mesh {
     this.promises = new Map();
   }
 
+  /** Whether the page holds a part of the mesh's cells, and the shapes of some of them. */
+  get part() {
+    return this.header.total > this.cells;
+  }
+
   /** Decodes what every drawing needs; once. @param frame of a plane, of the page's first plane. */
   load(frame) {
     return this.once("load", async () => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/** Dots over marked shapes that are too small to be seen. */
+/** Dots over marked shapes that are too small to be seen, and on picked cells that have no shape. */
 import { attribute, clipScale, makeBuffer, offsetOf, rotation } from "./context.js";
 
 /** More marked shapes than this form areas that are seen without dots. */
@@ -24,13 +24,20 @@ export class Dots {
       if (mask[id] && set.shapes.shown(id)) places.push(...set.shapes.centre(id, place), 0);
     }
     if (places.length > 4 * most) return;
-    this.count = places.length / 4;
-    this.size = set.patches.reduce((sum, p) => sum + p.size * p.count, 0) / set.order.length;
     this.upload(places, colour);
+    this.size = set.patches.reduce((sum, p) => sum + p.size * p.count, 0) / set.order.length;
+  }
+
+  /** One dot, whatever the size of shapes; null: none. */
+  setOne(place, colour) {
+    this.dispose();
+    if (place) this.upload([...place, 0], colour);
+    this.size = 0;
   }
 
   upload(places, colour) {
     const { gl } = this;
+    this.count = places.length / 4;
     const colours = new Uint8Array(4 * this.count);
     for (let k = 0; k < this.count; k++) colours.set([...colour, 255], 4 * k);
     this.array = gl.createVertexArray();
@@ -42,7 +49,7 @@ export class Dots {
     gl.bindVertexArray(null);
   }
 
-  draw(frame, ratio) {
+  draw(frame, ratio, width = 4) {
     if (!this.count || this.size * frame.scale > largest * ratio) return;
     const { gl, program: { program, uniforms } } = this;
     gl.useProgram(program);
@@ -50,7 +57,8 @@ export class Dots {
     gl.uniform3fv(uniforms.u_offset, offsetOf(frame, [0, 0, 0]));
     gl.uniform2fv(uniforms.u_clip, clipScale(frame));
     gl.uniform1f(uniforms.u_pixels, 0);
-    gl.uniform1f(uniforms.u_least, 4 * ratio);
+    gl.uniform1f(uniforms.u_least, width * ratio);
+    gl.uniform1f(uniforms.u_most, width * ratio);
     gl.uniform1f(uniforms.u_horizon, frame.sphere ? 0 : -1e30);
     gl.bindVertexArray(this.array);
     gl.drawArrays(gl.POINTS, 0, this.count);

@@ -15,13 +15,14 @@ export const pointsVertex = `${head}${place}
 layout(location = 0) in vec4 a_place;
 layout(location = 1) in vec4 a_colour;
 uniform float u_pixels;   // pixels per unit of the drawing, times the widening of a thinned patch
-uniform float u_least;    // smallest width in pixels
+uniform float u_least;    // smallest and largest width in pixels
+uniform float u_most;
 uniform float u_horizon;  // places farther than this are hidden
 flat out vec4 v_colour;
 void main() {
   vec3 p = u_rotation * a_place.xyz + u_offset;
   gl_Position = p.z < u_horizon ? outside() : vec4(p.xy * u_clip, 0.0, 1.0);
-  gl_PointSize = clamp(a_place.w * u_pixels, u_least, 64.0);
+  gl_PointSize = clamp(a_place.w * u_pixels, u_least, u_most);
   v_colour = a_colour;
 }`;
 

@@ -18,6 +18,10 @@ const overlap = 1.35;
 /** The same where patches are thinned: a prefix is less even than the whole. */
 const thinnedOverlap = 1.75;
 
+/** Squares are no wider than this many pixels; where they stand for cells without shapes, and so stay small. */
+const widest = 64;
+const widestDot = 8;
+
 /** The longest vertex list of a fan patch: colours are read up to it behind the last slot. */
 const colourPadding = 65536 * 4;
 
@@ -73,12 +77,13 @@ export class ShapesLayer {
     this.frames++;
     const visible = this.set.patches.filter((patch) => inWindow(patch, frame));
     const size = (patch) => patch.size * frame.scale;
-    const fans = visible.filter((patch) => size(patch) >= rule.pointsBelow * ratio);
+    const small = (patch) => size(patch) < rule.pointsBelow * ratio;
+    const fans = visible.filter((patch) => !small(patch));
     this.squaresOnly = fans.length === 0;
     const end = performance.now() + rule.budget;
     const missing = fans.filter((patch) => !this.prepared(patch, end));
-    const squares = visible.filter((patch) => size(patch) < rule.pointsBelow * ratio);
-    this.drawSquares([...squares, ...missing], frame, rule, ratio);
+    const squares = this.set.shapes.dotted ? visible : [...visible.filter(small), ...missing];
+    this.drawSquares(squares, frame, rule, ratio);
     const lined = (patch) => size(patch) >= lineless * ratio;
     this.drawFans(this.programs.plain, fans.filter((p) => !lined(p)), frame, theme, ratio);
     this.drawFans(this.programs.fans, fans.filter(lined), frame, theme, ratio);
@@ -124,6 +129,7 @@ export class ShapesLayer {
     gl.bindVertexArray(this.points);
     gl.uniform1f(uniforms.u_horizon, frame.sphere ? 0 : -1e30);
     gl.uniform1f(uniforms.u_least, 1);
+    gl.uniform1f(uniforms.u_most, this.set.shapes.mesh.part ? widestDot * ratio : widest);
     for (const patch of patches) {
       const demanded = ((patch.size * frame.scale) / (rule.pointSpacing * ratio)) ** 2;
       const count = Math.max(1, Math.min(patch.count, Math.ceil(patch.count * demanded)));

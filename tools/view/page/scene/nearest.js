@@ -11,17 +11,24 @@ const farthest = 2;
 /**
  * The cell of a set that holds a place of the drawing: the nearest site; of explicit polygons the
  * one that contains the place, if any of the nearest sixteen does. -1 if there is none near.
+ * @param dot how far from its site a cell without a shape is found.
  */
-export function cellAt(set, place) {
+export function cellAt(set, place, dot) {
   const { shapes } = set;
   const polygons = Boolean(shapes.polygons);
   const near = nearestCells(shapes, place, polygons ? candidates : 1);
   if (!near.length) return -1;
   const inside = polygons ? near.find(({ id }) => contains(shapes, id, place)) : undefined;
-  const found = inside ?? near[0];
-  const reach = farthest * set.sizeOf(found.id);
+  const dotted = ({ id }) => shapes.dotted && !hasShape(shapes, id);
+  const found = inside ?? near.find((cell) => !shapes.dotted || !polygons || dotted(cell));
+  if (!found) return -1;
+  const reach = dotted(found) ? dot : farthest * set.sizeOf(found.id);
   return inside || found.square <= reach * reach ? found.id : -1;
 }
+
+const ids = new Uint32Array(longestRing);
+
+export const hasShape = (shapes, id) => shapes.ring(id, ids) > 0;
 
 /** The nearest shown cell, however far. */
 export function nearestCell(shapes, place) {
@@ -49,7 +56,6 @@ function nearestCells(shapes, place, wanted) {
 
 /** Whether a place is inside a polygon, by the crossings of its sides with a ray in the tangent plane. */
 function contains(shapes, id, place) {
-  const ids = new Uint32Array(longestRing);
   const sides = shapes.ring(id, ids);
   const project = tangentPlane(shapes.mesh.plane, place);
   const ring = Array.from(ids.subarray(0, sides), (corner) => project(shapes.rim(corner, [0, 0, 0])));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * What is drawn: cells or triangles. Each kind has
- *   count; prepare(), before rings are asked for;
+ *   count; dotted: whether some are shown that have no shape; prepare(), before rings are asked for;
  *   shown(i); centre(i, out); ring(i, ids), which writes ids of rim points and returns their number
  *   (0: no shape); rim(id, out); rimCount.
  */
@@ -30,6 +30,7 @@ export function topologyOf(mesh) {
 class Shapes {
   constructor(mesh) {
     this.mesh = mesh;
+    this.dotted = mesh.part;
     this.ready = false;
   }
 
@@ -103,7 +104,7 @@ class PolygonCells extends Shapes {
   }
 
   shown(i) {
-    return this.begin[i + 1] > this.begin[i];
+    return this.dotted || this.begin[i + 1] > this.begin[i];
   }
 
   centre(i, out) {
@@ -147,6 +148,7 @@ class PolygonCells extends Shapes {
 class Triangles extends Shapes {
   constructor(mesh) {
     super(mesh);
+    this.dotted = false;
     this.count = mesh.header.triangles ? mesh.header.triangles.count / 3 : 0;
     this.rimCount = mesh.points?.length / mesh.dimension;
     [this.a, this.b, this.c] = [0, 1, 2].map(() => [0, 0, 0]);

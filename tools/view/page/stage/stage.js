@@ -109,7 +109,7 @@ export class Stage {
   async pick() {
     const { picked } = this.app;
     await Promise.all(this.views.map((view, k) =>
-      view.pick(picked?.cells[k] ?? -1, k === 0 ? picked?.triangle ?? -1 : -1)));
+      view.pick(picked?.cells[k] ?? -1, k === 0 ? picked?.triangle ?? -1 : -1, this.theme)));
     this.redraw();
   }
 

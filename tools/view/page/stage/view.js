@@ -18,6 +18,7 @@ export class View {
     this.dots = new Dots(tools.gl, tools.programs.points);
     this.outline = new Lines(tools.gl, tools.lines);
     this.triangleOutline = new Lines(tools.gl, tools.lines);
+    this.pin = new Dots(tools.gl, tools.programs.points);
     this.picked = -1;
   }
 
@@ -46,13 +47,15 @@ export class View {
   }
 
   /** Outlines a cell, and a triangle; -1: none. */
-  async pick(cell, triangle) {
+  async pick(cell, triangle, theme) {
     this.picked = cell;
+    this.accent = theme.accent;
     await this.drawOutline(this.outline, "cells", cell);
     await this.drawOutline(this.triangleOutline, "triangles", triangle);
   }
 
   async drawOutline(lines, kind, id) {
+    if (kind === "cells") this.pin.setOne(null);
     if (id < 0) {
       lines.set([]);
       return;
@@ -63,7 +66,7 @@ export class View {
     const ring = outline(shapes, id);
     const centre = shapes.centre(id, [0, 0, 0]);
     lines.set(ring.length ? [[...ring, ring[0]]] : [], centre);
-    if (kind === "cells") this.pickedPlace = centre;
+    if (kind === "cells" && !ring.length) this.pin.setOne(centre, this.accent);
   }
 
   /** @param rule see ShapesLayer.draw. Returns whether shapes are still to be built. */
@@ -79,6 +82,7 @@ export class View {
     }
     this.dots.draw(frame, ratio);
     if (frame.sphere) globe.drawRim(frame, theme, ratio);
+    this.pin.draw(frame, ratio, 11);
     for (const lines of [this.triangleOutline, this.outline]) {
       lines.draw(frame, 4.5 * ratio, theme.background);
       lines.draw(frame, 2.5 * ratio, theme.accent);
@@ -109,7 +113,7 @@ export class View {
 
   dispose() {
     for (const layer of Object.values(this.layers)) layer.dispose();
-    for (const part of [this.dots, this.outline, this.triangleOutline]) part.dispose();
+    for (const part of [this.dots, this.pin, this.outline, this.triangleOutline]) part.dispose();
     this.disposed = true;
   }
 }
