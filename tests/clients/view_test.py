@@ -269,10 +269,48 @@ def test_finding(pages):
                           "document.getElementById('find-form').requestSubmit())", text)
         cells.append(pages.browser.asynchronous("calotte.picked()")["cell"])
     check(len(set(cells)) == 1, f"find: {cells}")
-    for text in ("W", "--5", "5 W E", "°"):
-        pages.browser.run("(document.getElementById('find').value = arguments[0], "
-                          "document.getElementById('find-form').requestSubmit())", text)
-        check(pages.browser.run("document.getElementById('find-answer').textContent"), f"find: {text!r} is taken")
+    bad = {"W": "Enter two", "--5": "“-”", "5 W E": "Enter two", "°": "“°”", "40 50 60": "Enter two", "91, 200": "Latitudes",
+           "10N 20N": "Both", "-74W 40N": "minus sign", "10 70'N 3E": "Minutes", "lat 3W lon 4": "no W",
+           "10, 400": "Longitudes", "<b>1,2": "“<”", "": "Enter two", "x" * 5000: "“x”", "5e3 1": "Enter two"}
+    for text, words in bad.items():
+        answer, _ = find(pages.browser, text)
+        check(words in answer and "\n" not in answer and len(answer) < 90, f"find: {text[:20]!r}: {answer}")
+
+
+def find(browser, text):
+    """Enters a text in the field; the answer, and the place that is picked."""
+    browser.run("calotte.clear()")
+    browser.run("(document.getElementById('find').value = arguments[0], "
+                "document.getElementById('find-form').requestSubmit())", text)
+    picked = browser.asynchronous("calotte.idle().then(calotte.picked)")
+    return browser.run("document.getElementById('find-answer').textContent"), picked
+
+
+def test_places(pages):
+    """Places as people paste them."""
+    pages.open("places", "uniform.nc")
+    new_york = ["40.7128° N, 74.0060° W", "40°42'46\"N 74°00'22\"W", "40°42′46″N 74°00′22″W", "40.7N,74W", "74W 40.7N",
+                "lat 40.7 lon -74", "lon=-74, lat=40.7", "N40.7 W74", "Latitude: 40.7° Longitude: -74.0°", "40 42 46 N 74 0 22 W",
+                "40:42:46N 074:00:22W", "40.7128 north, 74.006 west", "40º42'46''N, 74º00'22''W", "40.7° N −74.0°",
+                "40.7128, -74.0060", "40.7128 -74.0060", "40.7 ; 286", "(40.7128, -74.0060)", "40°42'46\", -74°00'22\""]
+    for text in new_york:
+        answer, picked = find(pages.browser, text)
+        check(picked and abs(picked["lon"] + 74) < 3 and abs(picked["lat"] - 40.7) < 3, f"places: {text!r}: {picked}")
+        lettered = any(letter.isalpha() for letter in text)
+        check(("Latitude first: 74.0" in answer or "Latitude first: 286" in answer) if not lettered else not answer,
+              f"places: {text!r}: {answer}")
+    for text, first in (("-33.86, 151.21", "Latitude first: 151.21° E, 33.86° S"),
+                        ("151.21, -33.86", "Longitude first, as 151.21 is no latitude: 151.21° E, 33.86° S"),
+                        ("151.21E 33.86S", ""), ("33.86S 151.21E", "")):
+        answer, picked = find(pages.browser, text)
+        check(abs(picked["lon"] - 151.21) < 3 and abs(picked["lat"] + 33.86) < 3, f"places: {text!r}: {picked}")
+        check(answer.startswith(first) if first else not answer, f"places: {text!r}: {answer}")
+    check(pages.browser.run("document.getElementById('find-label').textContent") == "lat, lon or cell", "places: no label")
+    pages.check_quiet("places")
+    pages.open("point", "plane.nc", "--plane", "--rectangle", "0,0,2,1")
+    answer, picked = find(pages.browser, "1.5, 2.5e-1")
+    check(abs(picked["x"] - 1.5) < 0.1 and abs(picked["y"] - 0.25) < 0.1, f"places: {picked}")
+    check(find(pages.browser, "1.5N 2")[0] == "Enter x and y or one cell index.", "places: a letter in a plane")
 
 
 def test_part(pages):
@@ -376,7 +414,7 @@ def main(path):
         print("chromium, chromium-driver, python3-selenium or python3-netcdf4 is not installed")
         sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
     tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random,
-             test_polygon_of_many_sides, test_two_and_states, test_finding,
+             test_polygon_of_many_sides, test_two_and_states, test_finding, test_places,
              test_part, test_far_ocean, test_triangles_beside_polygons, test_plan, test_keyboard_and_table]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)

@@ -41,6 +41,7 @@ export function makeTestApi({ app, stage, selection, messages, ready }) {
       const ids = worstOf(measure, await mesh.values(name));
       return measure.on === "cells" ? ids.map((id) => mesh.fileIndex(id)) : ids;
     },
+    clear: () => selection.clear(),
     idle: () => app.idle(),
     ...(stage ? drawingApi(app, stage, selection) : {}),
   };

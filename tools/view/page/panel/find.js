@@ -1,79 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** The field that finds a cell by its index or by a place. */
 import { unitVector } from "../data/vector.js";
-import { count } from "../data/format.js";
+import { count, placeText } from "../data/format.js";
+import { hasShape } from "../scene/nearest.js";
 import { byId } from "./dom.js";
+import { placeOf } from "./places.js";
 
 /** ms that an answer stays. */
-const answerTime = 6000;
-
-/** A direction or a degree sign after a number, as in 12.34° W. */
-const direction = /^(.*?)°?([NSEW]?)$/i;
-
-/** Numbers of a text, also as the page prints them; NaN where there is something else. Of two numbers with
- *  directions the one of north or south is the second. */
-export function numbersOf(text) {
-  const plain = text.replace(/\u202f/g, "").replace(/\u2212/g, "-").replace(/\s*°\s*|\s+(?=[NSEW]\b)/gi, "");
-  const words = plain.split(/[\s,;]+/).filter(Boolean).map((word) => {
-    const [, digits, side] = direction.exec(word);
-    return { number: digits ? Number(digits) * (/[SW]/i.test(side) ? -1 : 1) : NaN, side };
-  });
-  const has = (word, sides) => word !== undefined && sides.test(word.side);
-  const [first, second] = words;
-  const swapped = has(first, /[NS]/i) || has(second, /[EW]/i);
-  const contrary = words.length === 1 ? first.side !== ""
-    : swapped ? has(first, /[EW]/i) || has(second, /[NS]/i) : false;
-  const numbers = words.map((word) => (contrary ? NaN : word.number));
-  return swapped ? numbers.reverse() : numbers;
-}
+const answerTime = 9000;
 
 export class Find {
   constructor(app, stage, selection) {
     Object.assign(this, { app, stage, selection });
     byId("find-form").addEventListener("submit", (event) => {
       event.preventDefault();
-      this.find(byId("find").value);
+      app.track(this.find(byId("find").value));
     });
     for (const end of ["input", "blur"]) byId("find").addEventListener(end, () => this.answer(""));
-    const place = app.shown[0].plane ? "x, y" : "lon, lat";
-    byId("find").placeholder = `${place} or cell`;
-    byId("find").setAttribute("aria-label", `Find a cell by ${place} or by its index`);
+    const { plane } = app.shown[0];
+    byId("find-label").textContent = plane ? "x, y or cell" : "lat, lon or cell";
+    byId("find").placeholder = plane ? "" : "40.7, −74.0";
+    byId("find").title = plane ? "" : "Letters decide, as in 74.0W 40.7N; without them latitude comes first.";
   }
 
-  find(text) {
-    const numbers = numbersOf(text);
-    if (!numbers.length || numbers.length > 2 || numbers.some((v) => !Number.isFinite(v))) {
-      this.answer("Enter two numbers or one cell index.");
-    } else if (numbers.length === 1) {
-      this.goToCell(numbers[0]);
-    } else {
-      this.goToPlace(numbers);
+  async find(text) {
+    try {
+      const cell = /^\s*(?:cell)?\s*(\d[\d\u202f]*)\s*$/i.exec(text);
+      if (cell) this.goToCell(Number(cell[1].replace(/\u202f/g, "")));
+      else await this.goToPlace(text);
+    } catch (error) {
+      this.answer(error.message);
     }
   }
 
   goToCell(index) {
     const mesh = this.app.shown[0];
     const cell = mesh.cellOf(index);
-    if (cell >= 0) {
-      this.answer("");
-      this.selection.goTo(0, cell);
-      return;
+    if (cell < 0) {
+      throw new Error(mesh.part && index < mesh.header.total
+        ? `The page does not hold cell ${count(index)}; calotte info --cell ${index} prints it.`
+        : `Cells are numbered from 0 to ${count(mesh.header.total - 1)}.`);
     }
-    this.answer(mesh.number
-      ? `The page does not hold cell ${count(index)}.`
-      : `Cells are numbered from 0 to ${count(mesh.cells - 1)}.`);
+    this.answer("");
+    this.selection.goTo(0, cell);
   }
 
-  goToPlace([a, b]) {
+  async goToPlace(text) {
     const mesh = this.app.shown[0];
-    if (!mesh.plane && Math.abs(b) > 90) {
-      this.answer("Latitudes are from −90 to 90.");
-      return;
-    }
-    const place = mesh.plane ? mesh.fromFile([a, b]) : unitVector(a, b);
-    const cell = this.selection.near(0, place);
-    this.answer(cell < 0 ? "The page shows no cell." : "");
-    if (cell >= 0) this.selection.goTo(0, cell);
+    const found = mesh.plane ? null : placeOf(text);
+    const cell = this.selection.near(0, found ? unitVector(found.lon, found.lat) : mesh.fromFile(pointOf(text)));
+    if (cell < 0) throw new Error("The page shows no cell.");
+    await this.selection.goTo(0, cell);
+    const { order } = found ?? {};
+    this.answer([
+      order === "lat, lon" ? `Latitude first: ${placeText(found)}.` : "",
+      order === "lon, lat" ? `Longitude first, as ${text.trim().split(/[\s,;]+/)[0]} is no latitude: ${placeText(found)}.` : "",
+      await this.nearestNote(cell),
+    ].filter(Boolean).join(" "));
+  }
+
+  /** Of a page of a part of the cells: whether the nearest one may not be the one that holds the place. */
+  async nearestNote(cell) {
+    const mesh = this.app.shown[0];
+    if (!mesh.part || !this.stage) return "";
+    const { shapes } = await this.stage.views[0].setOf("cells");
+    await shapes.prepare();
+    return hasShape(shapes, cell) ? "" : "The page lacks the cells there; this is the nearest that it holds.";
   }
 
   answer(text) {
@@ -81,4 +73,11 @@ export class Find {
     clearTimeout(this.timer);
     if (text) this.timer = setTimeout(() => this.answer(""), answerTime);
   }
+}
+
+/** x and y of a plane. */
+function pointOf(text) {
+  const numbers = text.replace(/\u202f/g, "").replace(/\u2212/g, "-").split(/[\s,;]+/).filter(Boolean).map(Number);
+  if (numbers.length !== 2 || !numbers.every(Number.isFinite)) throw new Error("Enter x and y or one cell index.");
+  return numbers;
 }
