@@ -45,8 +45,7 @@ std::vector<Quantity> quantities_of(const Mesh& sphere, const DoubleVector& widt
                   .values = lengths.of_radian * widths});
   list.push_back({.name = "gradient",
                   .label = "gradient of the width",
-                  .unit = "km/km",
-                  .help = "Change of the width with distance; most models need less than 0.03.",
+                  .help = "Change of the width over the distance; most models need less than 0.03.",
                   .worst = Worst::high,
                   .values = gradients(sphere, widths)});
   for (Quantity& quantity : list)
