@@ -40,10 +40,19 @@ class Browser:
     def __exit__(self, *_):
         self.driver.quit()
 
-    def open(self, path):
-        """Opens a page from the disk and waits for its first picture."""
-        self.driver.get(pathlib.Path(path).resolve().as_uri())
+    def open(self, path, fragment=""):
+        """Opens a page from the disk, at a part of its address after it, and waits for its first picture."""
+        self.driver.get(pathlib.Path(path).resolve().as_uri() + fragment)
         return self.asynchronous("calotte.ready")
+
+    def save_to(self, folder):
+        """Files that pages save go to a folder."""
+        self.driver.execute_cdp_cmd("Browser.setDownloadBehavior",
+                                    {"behavior": "allow", "downloadPath": str(pathlib.Path(folder).resolve())})
+
+    def press(self, key):
+        """Presses and releases a key where the focus is."""
+        webdriver.ActionChains(self.driver).send_keys(key).perform()
 
     def run(self, script, *arguments):
         """The value of an expression that may use arguments[0] and so on."""

@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 SKIPPED = 77
 X8 = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8"
@@ -313,6 +314,144 @@ def test_places(pages):
     check(find(pages.browser, "1.5N 2")[0] == "Enter x and y or one cell index.", "places: a letter in a plane")
 
 
+def wait_for(truth, message):
+    """Waits up to ten seconds."""
+    for _ in range(100):
+        if value := truth():
+            return value
+        time.sleep(0.1)
+    return check(False, message)
+
+
+STATE = """(() => { const value = (id) => document.getElementById(id).value, on = (id) => document.getElementById(id).checked;
+return [value('measure'), value('filter'), value('palette'), on('logarithmic'), on('fit'), on('coast'), on('shapes-triangles'),
+document.getElementById('marks-text').textContent, document.querySelector('#picked tbody')?.textContent ?? '']; })()"""
+
+
+def test_link(pages):
+    """The address holds the view, and opens it again; what is wrong in it is ignored."""
+    browser = pages.browser
+    page = pages.open("link", "x8.nc")
+    check(browser.run("location.hash") == "", "link: the address changes before the reader does anything")
+    first = browser.run(STATE)
+    opened = browser.asynchronous("calotte.pixels()")["checksum"]
+    browser.asynchronous("calotte.measure('quality')")
+    browser.run("['palette', 'logarithmic', 'coast', 'fit'].forEach(id => { const e = document.getElementById(id); "
+                "if (id === 'palette') e.value = 'magma'; else e.checked = !e.checked; e.dispatchEvent(new Event('change')); })")
+    browser.asynchronous("calotte.brush('spacing', 50, 100)")
+    browser.asynchronous("calotte.filter('marked')")
+    browser.asynchronous("calotte.shapes('triangles')")
+    browser.run("calotte.turn(12.5, -33.25, 3)")
+    browser.asynchronous("calotte.pick(777)")
+    address = wait_for(lambda: (lambda a: "at=12.5,-33.25,3" in a and "cell=777" in a and a)(browser.run("location.hash")),
+                       "link: the address does not have the place")
+    browser.asynchronous("calotte.idle()")
+    shown, picture = browser.run(STATE), browser.asynchronous("calotte.pixels()")["checksum"]
+    check(shown != first and "marked" in shown[1], f"link: {shown}")
+    browser.driver.get("about:blank")
+    browser.open(page, address)
+    wait_for(lambda: browser.run(STATE) == shown, f"link: {address} does not open {shown}")
+    check(browser.asynchronous("calotte.pixels()")["checksum"] == picture, f"link: {address} opens another picture")
+    browser.run("location.hash = ''")
+    wait_for(lambda: browser.run(STATE) == first, f"link: an empty address does not show {first}")
+    for bad in ("#", "#x", "#at=1,2", "#at=,,", "#at=NaN,0,1", "#at=1,2,-3", "#measure=nothing&shapes=squares&show=some&cell=99999999",
+                "#mark=quality", "#mark=quality,2,1", "#mark=nothing,1,2&mark=quality,0,1", "#show=marked", "#cell=-1&state=9",
+                "#mark=" + "a" * 10000, "#%", "#measure=<b>&palette=<b>&log=2&fit=x"):
+        browser.driver.get("about:blank")
+        browser.open(page, bad)
+        check(browser.run(STATE) == first, f"link: {bad[:60]} shows {browser.run(STATE)}")
+        check(browser.asynchronous("calotte.pixels()")["checksum"] == opened, f"link: {bad[:60]} shows another picture")
+        pages.check_quiet(f"link {bad[:60]}")
+    page = pages.open("linked", "plane.nc", "--plane", "--rectangle", "0,0,2,1")
+    browser.run("calotte.turn(0.5, 0.25, 4)")
+    wait_for(lambda: "at=0.5,0.25,4" in browser.run("location.hash"), "link: not of a plane")
+
+
+def test_saving(pages):
+    """The picture, and the marked cells with positions and measures."""
+    browser = pages.browser
+    pages.open("save", "x8.nc")
+    browser.save_to(".")
+    browser.run("document.getElementById('save-picture').click()")
+    picture = pathlib.Path("x8.png")
+    wait_for(picture.exists, "save: no picture")
+    check(picture.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", "save: not a PNG")
+    tall = int.from_bytes(picture.read_bytes()[20:24], "big")
+    check(tall == 62 + browser.run("document.getElementById('canvas').height"), f"save: the picture is {tall} pixels tall")
+    check(browser.run("document.getElementById('marks-save').hidden"), "save: nothing is marked")
+    count = browser.asynchronous("calotte.brush('degree', 4.5, 5.5)")
+    browser.run("document.getElementById('marks-save').click()")
+    table = pathlib.Path("x8-cells.csv")
+    wait_for(table.exists, "save: no table")
+    head, *rows = [line.split(",") for line in table.read_text().splitlines()]
+    check(head[:4] == ["cell", "longitude", "latitude", "spacing (km)"], f"save: {head}")
+    data = netCDF4.Dataset("x8.nc")
+    ids = [int(row[0]) for row in rows]
+    check(ids == list(numpy.flatnonzero(data["nEdgesOnCell"][:] == 5)) and len(ids) == count, f"save: {len(ids)} cells")
+    longitudes = numpy.degrees(data["lonCell"][ids])
+    difference = (numpy.array([float(row[1]) for row in rows]) - longitudes + 180) % 360 - 180
+    check(abs(difference).max() < 1e-4, f"save: longitudes are {abs(difference).max()} away")
+    latitudes = numpy.array([float(row[2]) for row in rows])
+    check(abs(latitudes - numpy.degrees(data["latCell"][ids])).max() < 1e-4, "save: latitudes")
+    check(all(row[head.index("neighbours")] == "5" for row in rows), "save: neighbours")
+    pages.check_quiet("save")
+    pages.open("names", "foreign.nc")
+    check("a<img src=x onerror=alert(1)>" in browser.asynchronous("calotte.csv()").splitlines()[0], "save: names")
+
+
+def test_fit(pages):
+    """The colours span what is in sight, and follow it."""
+    browser = pages.browser
+    pages.open("fit", "x8.nc")
+    ticks = "[...document.querySelectorAll('#histogram .tick text')].map(e => Number(e.textContent.replace(/\\s/g, '')))"
+    check(max(browser.run(ticks)) >= 200, f"fit: {browser.run(ticks)}")
+    browser.run("calotte.turn(-90, 35, 20)")
+    browser.run("document.getElementById('fit').click()")
+    near = wait_for(lambda: (lambda t: max(t) < 60 and t)(browser.run(ticks)), "fit: the colours span more than is in sight")
+    browser.run("calotte.turn(90, -30, 20)")
+    wait_for(lambda: min(browser.run(ticks)) > 200, f"fit: the colours do not follow: {near}")
+    browser.run("document.getElementById('fit').click()")
+    wait_for(lambda: min(browser.run(ticks)) < 60, "fit: it does not end")
+    pages.check_quiet("fit")
+
+
+def test_keys(pages):
+    """A list of all keys, by a button and by a key; each key that the page knows is in it."""
+    browser = pages.browser
+    pages.open("list", "uniform.nc")
+    shown = "document.getElementById('keys').open"
+    browser.run("document.getElementById('keys-open').click()")
+    check(browser.run(shown), "keys: the button shows no list")
+    if folder := os.environ.get("CALOTTE_SCREENSHOTS"):
+        browser.screenshot(pathlib.Path(folder) / "keys.png")
+    text = browser.run("document.getElementById('keys-list').textContent")
+    check(all(key in text for key in ("arrow", "+", "-", "0", "n", "p", "Esc", "Shift", "?", "Wheel", "Drag", "Double")),
+          f"keys: {text}")
+    browser.press("\ue00c")  # Escape
+    check(not browser.run(shown), "keys: Escape does not end the list")
+    browser.press("?")
+    check(browser.run(shown), "keys: ? shows no list")
+    pages.check_quiet("list")
+
+
+def test_narrow(pages):
+    """On a telephone nothing is wider than the screen, and all controls are there."""
+    browser = pages.browser
+    browser.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                   {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+    try:
+        pages.open("narrow", "x8.nc", "--most-cells", "4000")
+        check(browser.run("document.documentElement.scrollWidth") <= 390, "narrow: the page is wider than the screen")
+        outside = browser.run("[...document.querySelectorAll('button, input, select')].filter(e => e.offsetParent && "
+                              "(e.getBoundingClientRect().right > 390.5 || e.getBoundingClientRect().left < 0)).map(e => e.id)")
+        check(not [name for name in outside if not name.startswith("shapes-")], f"narrow: outside are {outside}")
+        find(browser, "-33.86, 151.21")
+        box = browser.run("(({left, right}) => [left, right])(document.getElementById('find-answer').getBoundingClientRect())")
+        check(box[0] >= 0 and box[1] <= 390, f"narrow: the answer is from {box[0]} to {box[1]}")
+    finally:
+        browser.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
 def test_part(pages):
     """A page of a part of the cells shows true cells, with their true neighbours, or dots."""
     pages.open("whole", "x8.nc")
@@ -414,7 +553,7 @@ def main(path):
         print("chromium, chromium-driver, python3-selenium or python3-netcdf4 is not installed")
         sys.exit(1 if os.environ.get("CALOTTE_CLIENTS") == "required" else SKIPPED)
     tests = [test_grid, test_limited_area, test_plane, test_periodic, test_foreign, test_small_and_random,
-             test_polygon_of_many_sides, test_two_and_states, test_finding, test_places,
+             test_polygon_of_many_sides, test_two_and_states, test_finding, test_places, test_link, test_saving, test_fit, test_keys, test_narrow,
              test_part, test_far_ocean, test_triangles_beside_polygons, test_plan, test_keyboard_and_table]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)

@@ -221,13 +221,15 @@ void thin(ViewMesh& mesh, std::int64_t most) {
   for (Quantity& quantity : mesh.quantities)
     quantity.values = DoubleVector(quantity.values(mesh.number));
   mesh.cells = std::ssize(mesh.number);
-  mesh.notice += message(
-      "The page holds {} of {} cells: all around {}, the worst and those around them, and others, "
-      "evenly spread, as dots. {}calotte info --cell N prints any cell. Bars and marks count what "
-      "the "
-      "page holds, the table all. ",
+  const std::string notice = message(
+      "The page holds {} of {} cells; dots are cells without their shapes. Whole are the cells "
+      "around {}, and the worst with those around them; the dots are spread evenly over the "
+      "others. "
+      "{}calotte info --cell N prints any cell. Bars and marks count the cells of the page, the "
+      "table all. ",
       spaced(mesh.cells), spaced(mesh.total), words_of(mesh, place),
-      mesh.on_sphere ? "calotte view --view LON,LAT holds another place. " : "");
+      mesh.on_sphere ? "calotte view --view LON,LAT holds those around another place. " : "");
+  mesh.notice = notice + mesh.notice; // the page shows the first sentence
 }
 
 } // namespace calotte::tools

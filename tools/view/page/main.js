@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** Starts the page. */
 import { App } from "./app/app.js";
+import { Link } from "./app/link.js";
 import { Selection } from "./app/selection.js";
 import { makeTestApi } from "./app/test_api.js";
 import { readPalettes } from "./colour/palettes.js";
@@ -17,6 +18,7 @@ import { messages, showMessage } from "./panel/messages.js";
 import { cellsText, Overlay } from "./panel/overlay.js";
 import { Picked } from "./panel/picked.js";
 import { preparePrinting } from "./panel/print.js";
+import { Save } from "./panel/save.js";
 import { renderTable } from "./panel/table.js";
 import { WorstList } from "./panel/worst_list.js";
 import { listenToPointers } from "./stage/gestures.js";
@@ -59,19 +61,25 @@ function startDrawing(app) {
   new Controls(app, stage);
   for (const Part of [WorstList, Picked]) new Part(app, selection);
   new Find(app, stage, selection);
-  const ready = run(app, stage).catch((error) => {
+  const link = new Link(app, stage, selection);
+  const ready = run(app, stage, link).catch((error) => {
     showMessage(`The page cannot be shown: ${error.message}.`);
     throw error;
   });
   ready.catch(() => {});
   if (stage) {
     new Overlay(app, stage, navigation);
+    new Save(app, stage);
     listenToPointers(canvas, stage, navigation, selection);
     listenToKeys(canvas, navigation, selection);
   }
   listenToTheme(app, stage);
+  byId("keys-open").addEventListener("click", () => byId("keys").showModal());
   addEventListener("keydown", (event) => {
     if (event.key === "Escape" && event.target === document.body) selection.clear();
+    if (event.key === "?" && !/^(INPUT|SELECT)$/.test(event.target.tagName) && !byId("keys").open) {
+      byId("keys").showModal();
+    }
   });
   const api = makeTestApi({ app, stage, selection, messages, ready });
   ready.then(() => (api.firstPicture = app.firstPicture), () => {});
@@ -91,10 +99,11 @@ function makeStage(canvas, app) {
 }
 
 /** Decodes and draws; ends after the first picture. */
-async function run(app, stage) {
+async function run(app, stage, link) {
   await app.loadMeshes();
   if (stage) stage.begin();
   await app.refresh();
+  await link.begin();
   if (stage) await stage.drawn;
   app.firstPicture = performance.now();
   document.body.classList.add("drawn");

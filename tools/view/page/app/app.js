@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * What is shown and chosen. The panel and the stage listen to its events:
- *   "colours": measure, shapes, scale or meshes changed; "marks"; "filter"; "pick"; "meshes".
+ *   "colours": measure, shapes, scale or meshes changed; "marks"; "filter"; "pick"; "meshes"; "coast";
+ *   "rest": the picture has stopped moving.
  */
 import { Mesh } from "../data/mesh.js";
 import { marksOnCells, marksOnTriangles, valuesOnTriangles } from "../data/convert.js";
@@ -21,12 +22,18 @@ export class App extends Emitter {
     this.shapes = this.measure?.on ?? "cells";
     this.filter = "all";
     this.logarithmic = null;
+    this.fit = false; // the scale to what is in sight
+    this.valuesInSight = null; // by a measure, an array a view; set by what draws
+    this.coast = true;
     this.palettes = { sequential: "viridis", diverging: "diverging" };
     this.marks = null;
     this.picked = null;
     this.state = header.history?.states.length ?? 0;
     this.changes = 0;
     this.pending = new Set();
+    this.on("rest", () => {
+      if (this.fit && this.measure && !this.measure.classes) this.refresh();
+    });
   }
 
   /** Remembers a change until it is done. */
@@ -79,8 +86,10 @@ export class App extends Emitter {
     this.emit("colours");
   }
 
-  /** The values that set the ends: of the page's first meshes, so that states can be compared. */
+  /** The values that set the ends: those in sight; or of the page's first meshes, so that states can be compared. */
   async scaleValues(measure) {
+    const seen = this.fit && this.valuesInSight ? await this.valuesInSight(measure) : [];
+    if (seen.some((values) => values.length)) return seen;
     const all = [...this.header.views.map((k) => this.meshes[k]), ...this.shown];
     const arrays = await Promise.all(all.map((mesh) => mesh.values(measure.name)));
     const views = arrays.slice(0, this.header.views.length).filter(Boolean);
@@ -121,10 +130,16 @@ export class App extends Emitter {
     await this.refresh();
   }
 
-  async chooseScale({ logarithmic, palette }) {
+  async chooseScale({ logarithmic, palette, fit }) {
+    this.fit = fit ?? this.fit;
     if (logarithmic !== undefined) this.logarithmic = logarithmic;
     if (palette) this.palettes[this.paletteKind] = palette;
     await this.refresh();
+  }
+
+  chooseCoast(shown) {
+    this.coast = shown;
+    this.emit("coast");
   }
 
   async chooseFilter(filter) {
@@ -142,20 +157,21 @@ export class App extends Emitter {
 
   /** Masks by shape, one a view; null where nothing is masked. */
   async refreshMasks() {
-    const marks = await Promise.all(this.shown.map((_, view) => this.marksOn(view)));
+    const marks = await Promise.all(this.shown.map((_, view) => this.marksOn(view, this.shapes)));
     const filters = await Promise.all(
       this.shown.map((mesh, view) => filterMask(mesh, this.filter, this.shapes, marks[view])));
     this.masks = this.shown.map((_, view) => ({ marks: marks[view], filter: filters[view] }));
   }
 
-  async marksOn(view) {
+  /** The marks of a view on shapes of a kind. */
+  async marksOn(view, shapes) {
     if (!this.marks) return null;
     const set = this.marks.sets[view];
-    if (this.marks.on === this.shapes) return set;
+    if (this.marks.on === shapes) return set;
     const mesh = this.shown[view];
     const corners = await mesh.connectivity();
     if (!corners) return null;
-    return this.shapes === "triangles"
+    return shapes === "triangles"
       ? marksOnTriangles(set, corners)
       : marksOnCells(set, corners, mesh.cells);
   }

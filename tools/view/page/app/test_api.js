@@ -5,6 +5,7 @@
  */
 import { unitVector } from "../data/vector.js";
 import { offsetOf } from "../gl/context.js";
+import { marksCsv } from "../panel/save.js";
 import { project } from "../stage/camera.js";
 import { markRanges } from "./marking.js";
 import { worstOf } from "./worst.js";
@@ -41,6 +42,7 @@ export function makeTestApi({ app, stage, selection, messages, ready }) {
       const ids = worstOf(measure, await mesh.values(name));
       return measure.on === "cells" ? ids.map((id) => mesh.fileIndex(id)) : ids;
     },
+    csv: () => marksCsv(app),
     clear: () => selection.clear(),
     idle: () => app.idle(),
     ...(stage ? drawingApi(app, stage, selection) : {}),
@@ -62,15 +64,7 @@ function drawingApi(app, stage, selection) {
   };
   return {
     /** @param lon, lat degrees, or x and y of a plane. */
-    turn(lon, lat, zoom) {
-      for (const view of stage.views) {
-        const { mesh, camera } = view;
-        if (mesh.plane) camera.lookAtPoint(mesh.fromFile([lon, lat]));
-        else camera.lookAt({ lon, lat });
-        if (zoom) camera.setZoom(zoom);
-      }
-      stage.redraw();
-    },
+    turn: (lon, lat, zoom) => stage.lookAt(lon, lat, zoom),
     /** Picks what is at a longitude and latitude in sight, as a click does. */
     clickAt(lon, lat) {
       const { width, height } = stage.windows()[0];

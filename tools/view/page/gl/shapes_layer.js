@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** Draws a set of shapes: its patches as squares or as fans, by their size on the screen. */
 import { buildFans } from "../scene/fans.js";
+import { inWindow } from "../scene/patches.js";
 import {
   attribute, chooseProvokingVertex, clipScale, makeBuffer, makeProgram, offsetOf, rotation,
 } from "./context.js";
@@ -191,13 +192,4 @@ export class ShapesLayer {
     this.gl.deleteBuffer(this.places);
     this.gl.deleteBuffer(this.colours);
   }
-}
-
-/** Whether a patch can be seen: on the near side, and in the window. */
-function inWindow({ centre, radius }, frame) {
-  const [x, y, z] = offsetOf(frame, centre);
-  const reach = radius * frame.scale;
-  return (!frame.sphere || z + radius > 0)
-    && Math.abs(x) * frame.scale < frame.width / 2 + reach
-    && Math.abs(y) * frame.scale < frame.height / 2 + reach;
 }

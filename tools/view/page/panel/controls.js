@@ -8,7 +8,7 @@ import { announce, byId, element, show } from "./dom.js";
 
 export class Controls {
   constructor(app, stage) {
-    Object.assign(this, { app, stage });
+    this.app = app;
     this.fillMeasures();
     this.fill("palette", palettes.map(({ name, label }) => [name, label]));
     this.fill("filter", filters.map(({ name, label }) => [name, label]));
@@ -16,6 +16,8 @@ export class Controls {
     show(byId("coast-control"), Boolean(app.header.coastlines && stage));
     app.on("colours filter", () => this.show());
     app.on("marks", () => this.showMarks());
+    app.on("coast", () => (byId("coast").checked = app.coast));
+    show(byId("fit-control"), Boolean(stage));
   }
 
   fill(id, options) {
@@ -33,7 +35,7 @@ export class Controls {
   }
 
   listen() {
-    const { app, stage } = this;
+    const { app } = this;
     const on = (id, change) => byId(id).addEventListener("change", (event) => change(event.target));
     on("measure", (e) => app.chooseMeasure(e.value));
     on("palette", (e) => app.chooseScale({ palette: e.value }));
@@ -41,7 +43,8 @@ export class Controls {
     on("filter", (e) => app.chooseFilter(e.value));
     on("shapes-cells", () => app.chooseShapes("cells"));
     on("shapes-triangles", () => app.chooseShapes("triangles"));
-    on("coast", (e) => stage.toggleCoast(e.checked));
+    on("fit", (e) => app.chooseScale({ fit: e.checked }));
+    on("coast", (e) => app.chooseCoast(e.checked));
     byId("marks-clear").addEventListener("click", () => app.mark(null));
   }
 
@@ -56,7 +59,8 @@ export class Controls {
     byId("shapes-cells").checked = app.shapes === "cells";
     byId("shapes-triangles").checked = app.shapes === "triangles";
     byId("shapes-triangles").disabled = !app.hasTriangles;
-    show(byId("scale-controls"), ranged && !scale.empty && !scale.constant);
+    show(byId("scale-controls"), ranged && !scale.empty && (app.fit || !scale.constant));
+    byId("fit").checked = app.fit;
     byId("palette").value = app.palettes[app.paletteKind];
     byId("logarithmic").checked = Boolean(scale?.logarithmic);
     byId("logarithmic").disabled = !scale?.canBeLogarithmic;

@@ -54,7 +54,7 @@ export class Find {
     const { order } = found ?? {};
     this.answer([
       order === "lat, lon" ? `Latitude first: ${placeText(found)}.` : "",
-      order === "lon, lat" ? `Longitude first, as ${text.trim().split(/[\s,;]+/)[0]} is no latitude: ${placeText(found)}.` : "",
+      order === "lon, lat" ? `Longitude first, as a latitude is at most 90: ${placeText(found)}.` : "",
       await this.nearestNote(cell),
     ].filter(Boolean).join(" "));
   }

@@ -115,12 +115,10 @@ export class Law {
   /** Marks the cells of the bins from a corner to the opposite one. */
   async select([x0, y0], [x1, y1]) {
     const [x, y] = this.measures;
-    this.rectangle = [Math.min(x0, x1), Math.min(y0, y1), Math.max(x0, x1) + 1, Math.max(y0, y1) + 1];
-    const [left_, bottom, right, upper] = this.rectangle.map((k) => this.range.low * Math.exp(k * this.step));
-    const open = (value, k) => (k === 0 ? 0 : k === bins ? Infinity : value);
+    const value = (k) => (k === 0 ? 0 : k === bins ? Infinity : this.range.low * Math.exp(k * this.step));
     await markRanges(this.app, [
-      { name: x.name, low: open(left_, this.rectangle[0]), high: open(right, this.rectangle[2]) },
-      { name: y.name, low: open(bottom, this.rectangle[1]), high: open(upper, this.rectangle[3]) },
+      { name: x.name, low: value(Math.min(x0, x1)), high: value(Math.max(x0, x1) + 1) },
+      { name: y.name, low: value(Math.min(y0, y1)), high: value(Math.max(y0, y1) + 1) },
     ]);
   }
 
@@ -129,10 +127,12 @@ export class Law {
   }
 
   showBrush() {
-    const visible = this.app.marks?.ranges.length === 2 && this.rectangle;
+    const ranges = this.measures.map((m) => this.app.marks?.ranges.find(({ name }) => name === m.name));
+    const visible = this.app.marks?.ranges.length === 2 && ranges.every(Boolean);
     this.brush.toggleAttribute("hidden", !visible);
     if (!visible) return;
-    const [x0, y0, x1, y1] = this.rectangle.map((k) => (k / bins) * side);
+    const at = (value) => Math.min(1, Math.max(0, this.range.position(value))) * side;
+    const [[x0, x1], [y0, y1]] = ranges.map(({ low, high }) => [at(low), at(high)]);
     const box = { x: left + x0, y: top + side - y1, width: x1 - x0, height: y1 - y0 };
     for (const [name, value] of Object.entries(box)) this.brush.setAttribute(name, value);
   }

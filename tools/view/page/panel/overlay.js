@@ -23,7 +23,7 @@ export class Overlay {
       const label = element("div", { class: "view-label" },
         several ? element("strong", {}, mesh.name) : null,
         several ? element("span", {}, cellsText(mesh)) : null,
-        notice ? element("span", { class: "notice" }, notice) : null);
+        notice ? noticeOf(notice) : null);
       label.style.left = `${windows[k].x}px`;
       label.style.top = `${windows[k].y}px`;
       label.style.maxWidth = `${windows[k].width - 24}px`;
@@ -41,6 +41,13 @@ export class Overlay {
     const place = hit.view.camera.unproject(hit.x, hit.y, hit.window.width, hit.window.height);
     return place ? placeText(hit.view.mesh.placeOf(place)) : "";
   }
+}
+
+/** The first sentence, and the others behind it. */
+function noticeOf(notice) {
+  const [first, ...others] = notice.trim().split(/(?<=[.]) /);
+  if (!others.length) return element("span", { class: "notice" }, first);
+  return element("details", { class: "notice" }, element("summary", {}, first), others.join(" "));
 }
 
 /** The number of cells, and of how many in the file they are a part; of a plan those of its grid. */

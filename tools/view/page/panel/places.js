@@ -26,7 +26,9 @@ export function placeOf(text) {
   if (pair.length !== 2) throw new Error("Enter two coordinates or one cell index.");
   const values = pair.map(valueOf);
   const [first, second] = pair.map(({ axis }) => axis);
-  if (first && first === second) throw new Error(`Both coordinates are ${first === "lat" ? "latitudes" : "longitudes"}.`);
+  if (first && first === second) {
+    throw new Error(`Both coordinates are ${first === "lat" ? "latitudes" : "longitudes"}.`);
+  }
   const lettered = first || second;
   const swapped = lettered ? first === "lon" || second === "lat"
     : Math.abs(values[0]) > 90 && Math.abs(values[1]) <= 90;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /** Shapes in patches: runs of a space-filling curve that are culled and drawn together. */
+import { offsetOf } from "../gl/context.js";
 import { keysOfFace, planeKey, sortByKey, sphereKey } from "./curve.js";
 
 const patchSize = 1024;
@@ -48,6 +49,19 @@ export class ShapeSet {
     return slot < 0 ? 0 : this.centres[4 * slot + 3];
   }
 
+  /** The shapes whose centres are in a frame's window. */
+  idsIn(frame) {
+    const ids = [];
+    for (const patch of this.patches) {
+      if (!inWindow(patch, frame)) continue;
+      for (let slot = patch.first; slot < patch.first + patch.count; slot++) {
+        const centre = [0, 1, 2].map((d) => patch.centre[d] + this.centres[4 * slot + d]);
+        if (inWindow({ centre, radius: 0 }, frame)) ids.push(this.order[slot]);
+      }
+    }
+    return ids;
+  }
+
   makePatch(first, end) {
     const { shapes, order } = this;
     const count = end - first;
@@ -80,6 +94,15 @@ export class ShapeSet {
       patch.least = Math.min(patch.least, sizes[k]);
     });
   }
+}
+
+/** Whether what is around a place, such as a patch, can be seen: on the near side, and in the window. */
+export function inWindow({ centre, radius }, frame) {
+  const [x, y, z] = offsetOf(frame, centre);
+  const reach = radius * frame.scale;
+  return (!frame.sphere || z + radius > 0)
+    && Math.abs(x) * frame.scale < frame.width / 2 + reach
+    && Math.abs(y) * frame.scale < frame.height / 2 + reach;
 }
 
 function sortedByCurve(shapes) {

@@ -2,6 +2,7 @@
 /** The canvas: its views, and when they are drawn. */
 import { colourTables } from "../colour/paint.js";
 import { drawingTheme } from "../colour/theme.js";
+import { unitVector } from "../data/vector.js";
 import { Globe } from "../gl/globe.js";
 import { Lines, linesProgram } from "../gl/lines.js";
 import { makeContext } from "../gl/context.js";
@@ -15,6 +16,9 @@ import { View } from "./view.js";
 
 /** Windows of more device pixels a CSS pixel show no more than this. */
 const greatestRatio = 2;
+
+/** ms after the last movement that the app is told of rest. */
+const restAfter = 250;
 
 export class Stage {
   /** @returns a stage, or null if there is no WebGL 2. */
@@ -30,7 +34,6 @@ export class Stage {
     this.smooth = new SmoothTarget(gl);
     this.pace = new Pace();
     this.views = [];
-    this.showCoast = true;
     this.theme = drawingTheme();
     this.drawn = new Promise((resolve) => (this.firstDrawn = resolve));
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -47,6 +50,8 @@ export class Stage {
     app.on("meshes", () => this.makeViews());
     app.on("colours", () => app.track(this.refresh()));
     app.on("marks filter", () => this.recolour());
+    app.on("coast", () => this.redraw());
+    app.valuesInSight = (measure) => this.valuesInSight(measure);
     app.on("pick", () => app.track(this.pick()));
     new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
   }
@@ -54,11 +59,6 @@ export class Stage {
   setCoast(lines) {
     this.coast = new Lines(this.gl, this.tools.lines);
     this.coast.set(lines);
-    this.redraw();
-  }
-
-  toggleCoast(shown) {
-    this.showCoast = shown;
     this.redraw();
   }
 
@@ -145,8 +145,29 @@ export class Stage {
   /** To be called after a camera moved. */
   moved() {
     this.pace.moved();
-    this.onMove?.();
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.app.emit("rest"), restAfter);
     this.redraw();
+  }
+
+  /** @param a, b longitude and latitude in degrees, or x and y of a plane. */
+  lookAt(a, b, zoom) {
+    for (const { mesh, camera } of this.views) {
+      camera.lookAtPoint(mesh.plane ? mesh.fromFile([a, b]) : unitVector(a, b));
+      if (zoom) camera.setZoom(zoom);
+    }
+    this.moved();
+  }
+
+  /** The values of a measure in the windows, an array a view. */
+  valuesInSight(measure) {
+    return Promise.all(this.views.map(async (view, k) => {
+      const values = await view.mesh.values(measure.name);
+      const set = await view.setOf(measure.on);
+      const { width, height } = this.windows()[k];
+      const ids = values ? set.idsIn(view.camera.frame(width, height)) : [];
+      return Float64Array.from(ids, (id) => values[id]);
+    }));
   }
 
   redraw() {
@@ -196,7 +217,7 @@ export class Stage {
       gl.viewport(...box);
       gl.scissor(...box);
       const frame = this.views[k].camera.frame(box[2], box[3]);
-      const coast = this.showCoast ? this.coast : null;
+      const coast = this.app.coast ? this.coast : null;
       return this.views[k].draw({ frame, rule, theme, ratio, globe, coast });
     });
     return missing.some(Boolean);
