@@ -356,7 +356,7 @@ const std::vector<Guide>& guides() {
        examples, "first-grid.md"},
       {"plane planar periodic rectangle cartesian hexagon hex flat domain", plane, "plane.md"},
       {"picture plot figure image html png paraview visualise visualize visualisation browser",
-       pictures, "first-grid.md"},
+       pictures, "first-grid.md browser.md"},
       {"quality measure check-mesh obtuse angle valid verify", quality,
        "measures.md first-grid.md"},
       {"partitions metis graph decomposition graph.info gpmetis process", parts, "models.md"},
