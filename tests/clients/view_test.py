@@ -494,6 +494,8 @@ def test_part(pages):
     check(colours.count(globe) > 128, "part: cells without shapes cover the globe")
     for name in ("obtuse", "all"):
         pages.browser.asynchronous("calotte.filter(arguments[0])", name)
+    answer, picked = find(pages.browser, "10.5, -30")
+    check("--view -30,10.5 has them" in answer and not picked["neighbours"], f"part: {answer} {picked}")
     check(pages.browser.run("[...document.getElementById('filter').options].find(o => o.value === 'pairs').disabled"),
           "part: pairs of neighbours are looked for")
     pages.browser.asynchronous("calotte.shapes('triangles')")

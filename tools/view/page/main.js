@@ -60,7 +60,8 @@ function startDrawing(app) {
   for (const Part of [Histogram, Classes, Law, History]) new Part(app);
   new Controls(app, stage);
   for (const Part of [WorstList, Picked]) new Part(app, selection);
-  new Find(app, stage, selection);
+  new Find(app, selection);
+  new Save(app, stage);
   const link = new Link(app, stage, selection);
   const ready = run(app, stage, link).catch((error) => {
     showMessage(`The page cannot be shown: ${error.message}.`);
@@ -69,7 +70,6 @@ function startDrawing(app) {
   ready.catch(() => {});
   if (stage) {
     new Overlay(app, stage, navigation);
-    new Save(app, stage);
     listenToPointers(canvas, stage, navigation, selection);
     listenToKeys(canvas, navigation, selection);
   }

@@ -3,6 +3,7 @@
 import { unitVector } from "../data/vector.js";
 import { count, placeText } from "../data/format.js";
 import { hasShape } from "../scene/nearest.js";
+import { shapesOf } from "../scene/shapes.js";
 import { byId } from "./dom.js";
 import { placeOf } from "./places.js";
 
@@ -10,8 +11,8 @@ import { placeOf } from "./places.js";
 const answerTime = 9000;
 
 export class Find {
-  constructor(app, stage, selection) {
-    Object.assign(this, { app, stage, selection });
+  constructor(app, selection) {
+    Object.assign(this, { app, selection });
     byId("find-form").addEventListener("submit", (event) => {
       event.preventDefault();
       app.track(this.find(byId("find").value));
@@ -55,17 +56,17 @@ export class Find {
     this.answer([
       order === "lat, lon" ? `Latitude first: ${placeText(found)}.` : "",
       order === "lon, lat" ? `Longitude first, as a latitude is at most 90: ${placeText(found)}.` : "",
-      await this.nearestNote(cell),
+      (await this.isWhole(cell)) ? "" : lackNote(found),
     ].filter(Boolean).join(" "));
   }
 
-  /** Of a page of a part of the cells: whether the nearest one may not be the one that holds the place. */
-  async nearestNote(cell) {
+  /** Whether the page has a cell's neighbours, so that it is the one that holds a place near it. */
+  async isWhole(cell) {
     const mesh = this.app.shown[0];
-    if (!mesh.part || !this.stage) return "";
-    const { shapes } = await this.stage.views[0].setOf("cells");
+    if (!mesh.part) return true;
+    const shapes = shapesOf(mesh, "cells");
     await shapes.prepare();
-    return hasShape(shapes, cell) ? "" : "The page lacks the cells there; this is the nearest that it holds.";
+    return hasShape(shapes, cell);
   }
 
   answer(text) {
@@ -73,6 +74,12 @@ export class Find {
     clearTimeout(this.timer);
     if (text) this.timer = setTimeout(() => this.answer(""), answerTime);
   }
+}
+
+/** @param place where the page lacks cells, {lon, lat}, or null in a plane. */
+function lackNote(place) {
+  const nearest = "The page lacks the cells there; this is the nearest that it holds.";
+  return place ? `${nearest} calotte view --view ${place.lon},${place.lat} has them.` : nearest;
 }
 
 /** x and y of a plane. */

@@ -7,6 +7,7 @@ import { ticks } from "./axis.js";
 import { announce, byId, element, show } from "./dom.js";
 
 export class Save {
+  /** @param stage null where nothing can be drawn; then the button of the picture is not shown. */
   constructor(app, stage) {
     Object.assign(this, { app, stage });
     byId("save-picture").addEventListener("click", () => this.savePicture());
