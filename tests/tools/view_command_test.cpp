@@ -265,6 +265,8 @@ TEST_CASE("two meshes, a plan, and the states of a run") {
   REQUIRE(states.size() > 1);
   CHECK(states[0]["iteration"] == 10);
   CHECK(two.mesh(states[0]["mesh"])["name"] == "grid.000010.vtp");
+  CHECK(two.mesh(states[0]["mesh"])["home"].is_object());
+  CHECK(two.mesh(states[0]["mesh"])["home"] == two.mesh(states[1]["mesh"])["home"]);
   const HtmlPage plan = make_page(bench, "--plan --cell-width 60km");
   CHECK(plan.measure("prescribed")["mean"] == doctest::Approx(60));
   CHECK(plan.measure("gradient")["greatest"].get<double>() < 1e-9);

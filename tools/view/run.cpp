@@ -2,6 +2,7 @@
 #include "view/run.h"
 
 #include "draw/history_report.h"
+#include "draw/shapes.h"
 #include "options/mesh_source.h"
 #include "text/text.h"
 
@@ -25,6 +26,8 @@ void add_run(ViewPage& view, const std::string& report, const std::string& folde
     result.notice += message("The history is of a run with {} cells. ", cells);
   ViewChoice part = choice;
   part.fields.clear();
+  if (result.on_sphere) // all states have whole cells at one place
+    part.view = lonlat_of(result.home.value_or(finest_place(result)));
   if (!history.states.empty())
     part.most_cells = std::max<std::int64_t>(
         12, choice.most_cells / static_cast<std::int64_t>(history.states.size()));

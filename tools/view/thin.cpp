@@ -104,17 +104,6 @@ Cells with_rows(const ViewMesh& mesh, Cells cells, std::int64_t most) {
   }
 }
 
-/// Where cells are smallest.
-Eigen::Vector3d finest_place(const ViewMesh& mesh) {
-  Eigen::Index finest = 0;
-  for (const Quantity& quantity : mesh.quantities)
-    if (quantity.name == "area")
-      for (Eigen::Index i = 0; i < quantity.values.size(); ++i)
-        if (!(quantity.values[i] >= quantity.values[finest]) && std::isfinite(quantity.values[i]))
-          finest = i;
-  return mesh.points.col(finest);
-}
-
 /// Cells along a space-filling curve.
 std::vector<std::int32_t> along_curve(const ViewMesh& mesh,
                                       const std::vector<std::int32_t>& cells) {
@@ -206,6 +195,16 @@ std::string words_of(const ViewMesh& mesh, const Eigen::Vector3d& place) {
 }
 
 } // namespace
+
+Eigen::Vector3d finest_place(const ViewMesh& mesh) {
+  Eigen::Index finest = 0;
+  for (const Quantity& quantity : mesh.quantities)
+    if (quantity.name == "area")
+      for (Eigen::Index i = 0; i < quantity.values.size(); ++i)
+        if (!(quantity.values[i] >= quantity.values[finest]) && std::isfinite(quantity.values[i]))
+          finest = i;
+  return mesh.points.col(finest);
+}
 
 void thin(ViewMesh& mesh, std::int64_t most) {
   const Eigen::Vector3d place = mesh.home.value_or(finest_place(mesh));

@@ -58,6 +58,9 @@ ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& cho
 /// \throws Error invalid_argument if the mesh does not have it.
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell);
 
+/// The site of the smallest cell.
+Eigen::Vector3d finest_place(const ViewMesh& mesh);
+
 /// Keeps a part of a mesh: a tenth of `most` around its home, or else its smallest cell; the ten
 /// worst cells of each quantity with rows around them; and others, evenly spread. Those around the
 /// home and the worst keep their triangles and shapes. The others have none, so that nothing is
