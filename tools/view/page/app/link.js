@@ -86,6 +86,7 @@ export class Link {
     if (measure) await app.chooseMeasure(measure);
     const shapes = value("shapes");
     if (app.measure?.on !== "triangles" && /^(cells|triangles)$/.test(shapes)) await app.chooseShapes(shapes);
+    this.restorePlace((params.get("at") ?? "").split(",").map(Number)); // the scale may be that of what is in sight
     const log = params.get("log");
     await app.chooseScale({
       palette: isOne(palettes, params.get("palette")) ? params.get("palette") : undefined,
@@ -98,7 +99,6 @@ export class Link {
     const works = isOne(filters, filter) && filterWorks(filter, app.shown) && (filter !== "marked" || app.marks);
     await app.chooseFilter(works ? filter : "all");
     this.restoreCell(params.get("cell"));
-    this.restorePlace((params.get("at") ?? "").split(",").map(Number));
   }
 
   async restoreMarks(ranges) {
