@@ -106,8 +106,6 @@ std::string with_value(const CLI::App& app, const std::string& text) {
 std::string with_option(const CLI::App& app, const std::string& text) {
   static const std::vector<std::pair<std::string, std::string>> options{
       {"read them as longitude and latitude, or as places in a plane", " (--lonlat, --plane)"},
-      {"read it as one of the plane", " (--plane)"},
-      {"read it as one of the sphere", " (without --plane)"},
       {"give the points they refer to", " (--points FILE)"},
       {"as an option or as the file's \"outsideWidth\"", " (--outside-width)"},
       {"as an option or as the file's \"insideWidth\"", " (--inside-width)"},

@@ -203,8 +203,8 @@ void add_convert(CLI::App& app) {
   request->density = add_density(*command);
   request->config = add_config(*command);
   set_help(*command,
-           {.common = {"IN", "OUT", "--points", "--plane", "--domain", "--for", "--format",
-                       "--sphere-radius", "--order", "--density", "--cell-width", "--config"},
+           {.common = {"IN", "OUT", "--points", "--domain", "--for", "--format", "--sphere-radius",
+                       "--order", "--density", "--cell-width", "--config"},
             .examples = {"calotte convert mesh.vtp mesh.nc --for mpas-atmosphere",
                          "calotte convert mesh.nc grid.nc --format scrip"}});
   command->callback([request] { run(*request); });

@@ -43,26 +43,31 @@ struct DelaunayRequest {
 
 /// Checks all options that can fail, before any work.
 void require_request(const DelaunayRequest& request) {
-  if (request.plane && request.format->sphere_radius)
-    refuse("--sphere-radius does not apply with --plane; leave it out");
-  if (request.plane && holds_points(request.points))
-    refuse_path(request.points,
-                "--plane requires text with x y on each line; leave --plane out for a mesh");
+  if (request.periodic && !request.plane && !holds_points(request.points))
+    refuse("--periodic requires --plane, which reads x y on each line of a text");
   period_of(request.periodic);               // throws for an invalid box
   options_of(*request.format, request.mesh); // throws for a file that cannot be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
                   {request.points, *request.config});
 }
 
-Surface surface_of(const DelaunayRequest& request) {
+/// The box of --periodic, or else the surface that the points have.
+Surface surface_of(const DelaunayRequest& request, const Surface& own) {
+  if (own.is_sphere() && request.periodic)
+    refuse_path(request.points, "it holds points of the sphere; leave --periodic out");
+  if (!own.is_sphere() && request.format->sphere_radius)
+    refuse("--sphere-radius does not apply to a plane; leave it out");
   const std::optional<Eigen::Vector2d> period = period_of(request.periodic);
-  return period ? Surface::periodic(*period) : request.plane ? Surface::plane() : Surface::sphere();
+  if (period && !own.period().isZero(0) && own.period() != *period)
+    refuse_path(request.points, "its periodic box is {} x {}; leave --periodic out",
+                shortest(own.period().x()), shortest(own.period().y()));
+  return period ? Surface::periodic(*period) : own;
 }
 
-Triangulation triangulate(PointFile&& input, const DelaunayRequest& request,
+Triangulation triangulate(PointFile&& input, const Surface& surface,
                           const DelaunayOptions& options) {
   try {
-    return calotte::triangulate(std::move(input.points), surface_of(request), options);
+    return calotte::triangulate(std::move(input.points), surface, options);
   } catch (const Error& error) {
     rethrow_with_line(error, input.name, input.lines);
   }
@@ -124,11 +129,11 @@ std::string summary(const DelaunayRequest& request, const Triangulation& result)
 }
 
 /// What a model reads of the file.
-std::string remarks(const DelaunayRequest& request, const WriteOptions& output) {
+std::string remarks(const DelaunayRequest& request, const WriteOptions& output, bool on_sphere) {
   std::string lines;
   if (output.site_density.size() > 0)
     lines += derived_density(request.mesh, output.site_density);
-  if (!request.plane)
+  if (on_sphere)
     lines += suited_models(request.mesh, output);
   return lines;
 }
@@ -154,13 +159,12 @@ std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptio
   Progress progress;
   PointFile input;
   progress.stage("reading points");
-  const double read = seconds_of([&] {
-    input = request.plane ? read_planar_point_file(request.points)
-                          : read_point_file(request.points, request.lonlat);
-  });
+  const double read = seconds_of(
+      [&] { input = read_point_file(request.points, columns_of(request.plane, request.lonlat)); });
   const std::int64_t points = input.points.cols();
+  const Surface surface = surface_of(request, input.surface);
   progress.stage(message("triangulating {} points", points));
-  const Triangulation result = triangulate(std::move(input), request, options);
+  const Triangulation result = triangulate(std::move(input), surface, options);
   progress.stage("writing " + request.mesh);
   WriteOptions output = write_options(request, points);
   const double written = seconds_of([&] {
@@ -170,8 +174,8 @@ std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptio
   });
   if (!request.report.empty())
     write_file(request.report, to_json(result, read, written));
-  return warning_of(request.points, result.mesh.closed()) + remarks(request, output) +
-         summary(request, result);
+  return warning_of(request.points, surface.is_sphere() && result.mesh.closed()) +
+         remarks(request, output, surface.is_sphere()) + summary(request, result);
 }
 
 void run(const DelaunayRequest& request) {
@@ -199,13 +203,12 @@ void add_delaunay(CLI::App& app) {
       ->required();
   CLI::Option* lonlat = command->add_flag("--lonlat", request->lonlat,
                                           "The points are longitude and latitude in degrees");
-  CLI::Option* plane =
-      command
-          ->add_flag("--plane", request->plane,
-                     "Triangulate in the plane. The points are text with x y on each line; the "
-                     "mesh is .vtp, .vtu, .off, .ply, .msh, .txt or .tri")
-          ->excludes(lonlat);
-  add_periodic(*command, request->periodic)->needs(plane);
+  command
+      ->add_flag("--plane", request->plane,
+                 "The points are text with x y on each line; files of meshes know that they "
+                 "are planar. The mesh is .vtp, .vtu, .off, .ply, .msh, .txt or .tri")
+      ->excludes(lonlat);
+  add_periodic(*command, request->periodic);
   request->delaunay = add_delaunay_options(*command);
   request->format = add_format(*command);
   command->add_option("--report", request->report, "Write times and counts to this JSON file")

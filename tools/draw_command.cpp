@@ -194,18 +194,12 @@ void draw_mesh(const DrawArguments& arguments) {
                    widths.file, widths.raster, arguments.domain->file.value_or("")});
   require_density(arguments);
   require_field(arguments);
-  const bool plane = arguments.source->plane;
   std::optional<Surface> domain = surface_of(*arguments.domain);
-  const Density density =
-      density_of(*arguments.density, plane ? domain.value_or(Surface::plane()) : Surface());
-  MeshFile file =
-      read_mesh_alone(*arguments.source, plane ? FieldChoice::none : FieldChoice::scalars);
+  MeshFile file = read_mesh_alone(*arguments.source, FieldChoice::scalars);
+  const bool plane = file.plane() != nullptr;
   DrawOptions options = options_for(arguments, file);
-  options.density = density;
-  if (!plane && file.plane()) {
-    refuse_path(arguments.source->mesh_path(),
-                "it holds a mesh of the plane; read it as one of the plane");
-  }
+  options.density =
+      density_of(*arguments.density, plane ? domain.value_or(Surface::plane()) : Surface());
   if (!plane && file.other_cells()) {
     draw_cells(arguments, file);
     return;
@@ -214,7 +208,7 @@ void draw_mesh(const DrawArguments& arguments) {
     domain = filled_surface(file);
   }
   if (domain) {
-    set_domain(*file.mesh, *domain);
+    set_surface(*file.mesh, *domain);
   }
   const Mesh& mesh = *file.mesh;
   if (file.polygons && file.polygons->size() == mesh.points.cols()) {
@@ -276,6 +270,10 @@ void draw_density(const DrawArguments& arguments) {
   if (arguments.what->count() > 0) {
     throw CLI::RequiredError("--what: MESH");
   }
+  if (arguments.source->plane || arguments.domain->given()) {
+    refuse("a picture of a density is one of the sphere; leave --plane and the domain out, or give "
+           "a mesh");
+  }
   if (colouring != Colouring::density && colouring != Colouring::spacing) {
     refuse(
         "a picture of a density is coloured by density or spacing; give one of these, or a mesh");
@@ -315,7 +313,7 @@ void add_draw(CLI::App& app) {
   set_help(*command,
            {.common = {"MESH", "--mesh", "--at", "--output", "--what", "--colour", "--projection",
                        "--view", "--zoom", "--graticule", "--region", "--size", "--density",
-                       "--cell-width", "--units", "--history", "--spacing-law", "--plane"},
+                       "--cell-width", "--units", "--history", "--spacing-law", "--domain"},
             .examples = {"calotte draw mesh.nc -o globe.png --what cells --view 285,38",
                          "calotte draw history.nc --mesh mesh.nc --colour field:theta "
                          "--at time=3,lev=0 -o theta.png",

@@ -217,15 +217,16 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
   }
 }
 
-/// --plane, the domain, and the options that they exclude.
+/// --plane and the domain.
 void add_plane_options(CLI::App& command, DrawArguments& arguments) {
   const OptionGroup group(command, "Plane");
-  CLI::Option* plane = add_plane(command, *arguments.source);
   arguments.domain = add_domain(command);
-  for (const char* name :
-       {"--projection", "--view", "--zoom", "--graticule", "--region", "--coastlines",
-        "--spacing-law", "--history", "--sphere-radius", "--units"}) {
-    plane->excludes(command.get_option(name));
+  add_plane(command, *arguments.source,
+            {"--projection", "--view", "--zoom", "--graticule", "--region", "--coastlines",
+             "--spacing-law", "--sphere-radius", "--units"},
+            domain_names);
+  for (const char* name : {"--plane", "--domain", "--rectangle", "--periodic"}) {
+    command.get_option("--history")->excludes(command.get_option(name));
   }
 }
 

@@ -31,7 +31,7 @@ struct DrawArguments {
   std::string inside;               ///< a point of it, LON,LAT, or ""
   std::vector<std::string> reports; ///< drawn instead of a mesh
   bool spacing_law = false;
-  std::shared_ptr<DomainWords> domain; ///< with --plane
+  std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
 
   bool has_density() const { return !density->densities.empty() || density->widths.given(); }
 };

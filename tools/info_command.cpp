@@ -257,6 +257,7 @@ std::string read_and_measure(const InfoRequest& request) {
     return field_table(request);
   MeshFile file =
       read_mesh_file(*request.source, request.cell ? FieldChoice::scalars : FieldChoice::none);
+  request.density->widths.plane = file.plane() != nullptr;
   if (const std::optional<Surface> part = surface_of(*request.domain))
     set_surface(*file.mesh, *part);
   progress.stage("measuring " + request.source->path);
@@ -300,7 +301,6 @@ std::string read_and_measure(const InfoRequest& request) {
 }
 
 void run(const InfoRequest& request) {
-  request.density->widths.plane = request.source->plane;
   require_sphere_radius(request.sphere_radius.value_or(1));
   require_report(request);
   std::cout << read_and_measure(request);
@@ -316,7 +316,6 @@ void add_info(CLI::App& app) {
   auto request = std::make_shared<InfoRequest>();
   request->source = add_mesh_source(*command);
   add_fields_of(*command, *request->source);
-  add_plane(*command, *request->source);
   request->domain = add_domain(*command);
   request->density = add_density(*command);
   add_sphere_radius(*command, request->sphere_radius,
@@ -325,7 +324,7 @@ void add_info(CLI::App& app) {
                     "--cell-width");
   add_units(*command, request->units);
   add_demanding_model(*command, request->model);
-  command->get_option("--plane")->excludes("--sphere-radius")->excludes("--units");
+  add_plane(*command, *request->source, {"--sphere-radius", "--units", "--for"}, domain_names);
   command
       ->add_option("--cell", request->cell,
                    "Print the numbers of one cell instead, by its place in the file, from 0")
@@ -335,14 +334,14 @@ void add_info(CLI::App& app) {
                     "the mesh for smooth fields, and the longest stable steps");
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
-  set_help(*command,
-           {.common = {"MESH", "--mesh", "--at", "--points", "--plane", "--domain", "--density",
-                       "--cell-width", "--sphere-radius", "--units", "--cell", "--operators",
-                       "--for", "--report"},
-            .examples = {"calotte info mesh.nc", "calotte info mesh.nc --operators",
-                         "calotte info mesh.nc --for mpas-ocean",
-                         "calotte info history.nc --mesh mesh.nc --at time=3,lev=0",
-                         "calotte info mesh.vtp --sphere-radius earth --cell-width 60km"}});
+  set_help(
+      *command,
+      {.common = {"MESH", "--mesh", "--at", "--points", "--domain", "--density", "--cell-width",
+                  "--sphere-radius", "--units", "--cell", "--operators", "--for", "--report"},
+       .examples = {"calotte info mesh.nc", "calotte info mesh.nc --operators",
+                    "calotte info mesh.nc --for mpas-ocean",
+                    "calotte info history.nc --mesh mesh.nc --at time=3,lev=0",
+                    "calotte info mesh.vtp --sphere-radius earth --cell-width 60km"}});
   command->callback([request] { run(*request); });
 }
 

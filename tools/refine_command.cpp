@@ -290,8 +290,8 @@ void add(CLI::App& app, const Verb& verb) {
   auto request = std::make_shared<RefineRequest>();
   request->verb = &verb;
   request->source = add_mesh_source(*command, "BASE");
-  add_plane(*command, *request->source);
   request->domain = add_domain(*command);
+  add_plane(*command, *request->source, {}, domain_names);
   CLI::Option* const file = add_width_file(*command, request->widths, verb.widths);
   CLI::Option* const region =
       command

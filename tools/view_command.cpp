@@ -66,11 +66,12 @@ void require_request(const ViewRequest& request) {
   if (request.plan == !request.source->path.empty())
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
                         : "give a mesh, or --plan and the widths of a grid");
-  if (request.plan && (!request.fields.empty() || !request.report.empty() || request.operators ||
-                       request.source->plane || !request.source->points.empty() ||
-                       !request.source->mesh.empty() || !request.source->at.empty()))
+  if (request.plan &&
+      (!request.fields.empty() || !request.report.empty() || request.operators ||
+       request.source->plane || request.domain->given() || !request.source->points.empty() ||
+       !request.source->mesh.empty() || !request.source->at.empty()))
     refuse("--plan shows widths on the sphere; leave out --field, --mesh, --at, --history, "
-           "--operators, --plane and --points");
+           "--operators, --points, --plane and its domain");
   if (request.plan && request.sphere_radius && request.density->widths.in_km())
     refuse("widths in km refer to --earth-radius; give it in place of --sphere-radius");
   if (!request.plan && request.cells)
@@ -112,7 +113,9 @@ std::vector<ViewInput> read_inputs(const ViewRequest& request, Progress& progres
                               {.path = request.other,
                                .plane = request.source->plane,
                                .mesh = request.source->mesh,
-                               .at = request.source->at},
+                               .at = request.source->at,
+                               .of_sphere = request.source->of_sphere,
+                               .of_plane = request.source->of_plane},
                               progress));
   if (!inputs[0].file.plane() != !inputs[1].file.plane())
     refuse_path(request.other, "one mesh is of the sphere and one of the plane; view them apart");
@@ -122,12 +125,12 @@ std::vector<ViewInput> read_inputs(const ViewRequest& request, Progress& progres
   return inputs;
 }
 
-ViewChoice choice_of(const ViewRequest& request) {
+/// \param plane whether the meshes are of the plane.
+ViewChoice choice_of(const ViewRequest& request, bool plane) {
   const std::optional<Surface> surface = surface_of(*request.domain);
   return {.surface = surface,
           .density =
-              density_of(*request.density,
-                         request.source->plane ? surface.value_or(Surface::plane()) : Surface()),
+              density_of(*request.density, plane ? surface.value_or(Surface::plane()) : Surface()),
           .fields = request.fields,
           .units = request.units,
           .view = request.view,
@@ -136,9 +139,10 @@ ViewChoice choice_of(const ViewRequest& request) {
 }
 
 ViewPage view_of_meshes(const ViewRequest& request, Progress& progress) {
-  ViewChoice choice = choice_of(request);
+  std::vector<ViewInput> inputs = read_inputs(request, progress);
+  ViewChoice choice = choice_of(request, inputs.front().file.plane() != nullptr);
   ViewPage view;
-  for (ViewInput& input : read_inputs(request, progress)) {
+  for (ViewInput& input : inputs) {
     progress.stage("measuring " + input.source.path);
     choice.radius_km = input.radius_km;
     view.title += (view.title.empty() ? "" : " and ") + file_name(input.source);
@@ -283,17 +287,14 @@ void add_view(CLI::App& app) {
       ->type_name("FILE");
   command->add_flag("--open", request->open, "Open the page in the browser");
   add_content(*command, *request);
-  add_plane(*command, *request->source)
-      ->excludes("--sphere-radius")
-      ->excludes("--units")
-      ->excludes("--view");
   request->domain = add_domain(*command);
+  add_plane(*command, *request->source, {"--sphere-radius", "--units", "--view"}, domain_names);
   request->density = add_density(*command);
   add_plan_options(*command, *request);
   set_help(
       *command,
       {.common = {"MESH", "OTHER", "--mesh", "--at", "--output", "--open", "--field", "--view",
-                  "--history", "--density", "--cell-width", "--plane", "--plan"},
+                  "--history", "--density", "--cell-width", "--domain", "--plan"},
        .examples = {"calotte view mesh.nc --open", "calotte view mine.nc theirs.nc -o both.html",
                     "calotte view --plan --cell-width coast.geojson "
                     "--outside-width 120 --transition 4000 -o plan.html"}});

@@ -140,9 +140,9 @@ Surface read_region(std::istream& in, const std::string& name);
 ///         parse; file; for sites that delaunay() refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
-/// Reads the points of such a file, 3 x n, and ignores its triangles. In a UGRID file without sites
-/// the points are the nodes.
-/// \throws Error as read_mesh.
+/// Reads the points of such a file of the sphere, 3 x n, and ignores its triangles. In a UGRID file
+/// without sites the points are the nodes.
+/// \throws Error as read_mesh; invalid_argument for a mesh of the plane.
 Points3 read_sites(const std::string& path);
 
 /// Reads areas of land.

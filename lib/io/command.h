@@ -79,6 +79,15 @@ bool is_netcdf_file(const std::string& path);
 /// Whether a file was read from a NetCDF format. Lengths are in metres there.
 bool is_netcdf(const MeshFile& file);
 
+/// The points of a mesh's file, and where they are.
+struct SitesOfFile {
+  Points3 points;  ///< 3 x n, in a plane with z = 0
+  Surface surface; ///< the sphere, or a plane with its period, but without its boundary
+};
+
+/// As read_sites(), of a plane, too.
+SitesOfFile read_sites_and_surface(const std::string& path);
+
 /// Throws unless write() supports meshes of a plane in the format.
 /// \param path for the message.
 /// \param format not by_name.

@@ -479,7 +479,7 @@ TEST_CASE("a planar mesh comes back bit for bit from all that writes one") {
     check_same_plane(calotte::read_mesh(scratch / name), mesh);
     const Error error = error_of([&] { calotte::read_sites(scratch / name); });
     CHECK(error.code() == ErrorCode::invalid_argument);
-    names(error, "z is 0 at all points");
+    names(error, "holds a mesh of the plane, not of the sphere; read it with read_mesh()");
   }
   calotte::write(scratch / "a.tri", mesh);
   check_same_plane(calotte::read_mesh(scratch / "a.tri", &mesh.points), mesh);

@@ -175,21 +175,21 @@ TEST_CASE("in the plane the other diagonal of cocircular sites passes, as on the
   const Bench bench;
   bench.file("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   bench.file("kite.off", "OFF\n4 2 0\n0 0 0\n1 -.1 0\n2 0 0\n1 .1 0\n3 0 1 2\n3 0 2 3\n");
-  const Outcome square = bench.run("check square.off --plane");
+  const Outcome square = bench.run("check square.off");
   CHECK(square.code == 0);
   CHECK(square.err.empty());
   CHECK(square.out.ends_with("cocircular      1 edges take the other diagonal\n"
                              "boundaries      1, not convex at 0 sites\n"
                              "Delaunay        yes, every edge\n"
                              "square.off: passed\n"));
-  const Outcome info = bench.run("info square.off --plane --rectangle 0,0,1,1");
+  const Outcome info = bench.run("info square.off --rectangle 0,0,1,1");
   CHECK(info.code == 0);
   CHECK(has(info.out, "cells                 4\n"));
-  const Outcome kite = bench.run("check kite.off --plane");
+  const Outcome kite = bench.run("check kite.off");
   CHECK(kite.code == 1);
   CHECK(kite.err == "calotte: kite.off: failed: 1 of 5 edges are not Delaunay; the first is from "
                     "site 0 to 2\n");
-  check_refusals(bench, "info kite.off --plane",
+  check_refusals(bench, "info kite.off",
                  "--rectangle 0,-1,2,1 | 2 | edge (2, 0) of triangle 0 (0, 1, 2) is not Delaunay: "
                  "site 3 is inside the circumcircle; triangulate the points anew");
 }
@@ -425,7 +425,7 @@ TEST_CASE("info prints the errors of operators of limited areas and planes") {
       0);
   CHECK(has(bench.run("info a.nc --operators").out, "\ntangential velocity    0."));
   REQUIRE(bench.run("cvt --rectangle 0,0,4,3 --cells 200 -o plane.vtp").code == 0);
-  CHECK(has(bench.run("info plane.vtp --plane --rectangle 0,0,4,3 --operators").out,
+  CHECK(has(bench.run("info plane.vtp --rectangle 0,0,4,3 --operators").out,
             "\nlongest stable step x speed of waves            "));
 }
 
@@ -475,11 +475,11 @@ TEST_CASE("planar points in a domain, and the proof that their mesh is Delaunay"
   CHECK(bench.run("delaunay --plane square.points -o square.tri").code == 0);
   CHECK(bench.run("delaunay --plane --periodic 10,10.392304845413264 box.points -o box.nc").code ==
         0);
-  CHECK(has(bench.run("check --plane lake.vtp").out, "Delaunay        yes"));
+  CHECK(has(bench.run("check lake.vtp").out, "Delaunay        yes"));
   const Outcome square = bench.run("check --plane square.tri --points square.points");
   CHECK(has(square.out, "area / hull     "));
   CHECK(has(square.out, "Delaunay        yes"));
-  CHECK(has(bench.run("check --plane box.nc").out, "boundary edges  0\narea / box"));
+  CHECK(has(bench.run("check box.nc").out, "boundary edges  0\narea / box"));
   CHECK(bench.run("convert lake.vtp lake.off").out.ends_with(", a plane\n"));
   check_refusals(bench, "convert", R"(
 lake.vtp lake.nc | 2 | need its domain, which clips them; give --domain FILE
@@ -489,7 +489,7 @@ box.nc lake.vtp --domain lake.txt | 2 | holds no mesh of a bounded plane; leave 
   CHECK(bench.run("convert square.ply square.nc --rectangle=-1,-1,1,1").code == 0);
   CHECK(bench.run("check square.nc").code == 0);
   bench.file("bent.off", "OFF\n4 2 0\n0 0 0\n4 0 0\n2 1 0\n2 -1 0\n3 0 1 2\n3 0 3 1\n");
-  const Outcome bent = bench.run("check --plane bent.off");
+  const Outcome bent = bench.run("check bent.off");
   CHECK(bent.code == 1);
   CHECK(bent.err ==
         "calotte: bent.off: failed: 1 of 5 edges are not Delaunay; the first is from site 0 to "
@@ -515,16 +515,45 @@ random-plane 9 --periodic 1,1 --rectangle 0,0,1,1 | 2 | excludes
                    "--periodic " + word + " | 2 | --periodic " + word + " is not a box");
 }
 
+TEST_CASE("a file that knows that it is planar needs no --plane, which may agree") {
+  const Bench bench;
+  bench.file("points.txt", "0 0\n4 0\n4 3\n0 3\n2 1\n");
+  CHECK(bench.run("delaunay --plane points.txt -o mesh.vtp").code == 0);
+  CHECK(bench.run("delaunay --plane points.txt -o mesh.tri").code == 0);
+  CHECK(bench.run("cvt --periodic 4,3 --cells 40 -o box.nc").code == 0);
+  for (const std::string plane : {"", " --plane"}) {
+    CHECK(bench.run("delaunay mesh.vtp -o again.vtp" + plane).code == 0);
+    CHECK((bench.file("again.vtp") == bench.file("mesh.vtp")));
+    CHECK(has(bench.run("delaunay box.nc -o again.nc" + plane).out,
+              "40 sites, 80 triangles, periodic"));
+    CHECK(bench.run("delaunay box.nc --periodic 4,3 -o again.nc" + plane).code == 0);
+    CHECK(bench.run("check mesh.tri --points mesh.vtp" + plane).code == 0);
+    CHECK(bench.run("convert mesh.vtp mesh.nc --rectangle 0,0,4,3" + plane).code == 0);
+    CHECK(bench.run("refine mesh.nc --cell-width 9 -o finer.nc" + plane).code == 0);
+    for (const std::string command : {"check ", "info ", "draw -o a.svg ", "view -o a.html "})
+      for (const std::string mesh : {"mesh.nc", "box.nc"})
+        CHECK(bench.run(command + mesh + plane).code == 0);
+  }
+  check_refusals(bench, "delaunay -o never.nc", R"(
+box.nc --periodic 4,4 | 2 | box.nc: its periodic box is 4 x 3; leave --periodic out
+mesh.vtp --sphere-radius 5 | 2 | --sphere-radius does not apply to a plane; leave it out
+)");
+  check_refusals(bench, "cvt -o never.vtp", R"(
+--points mesh.vtp | 2 | mesh.vtp: it holds points of a plane; give its domain (--rectangle
+)");
+}
+
 TEST_CASE("invalid planar input is refused, naming line or option") {
   const Bench bench;
   bench.file("points.txt", "0 0\n1 0\n0.5 1\n0.7 0.2\n");
   bench.file("bad.txt", "0 0\n1 0\n0.5 inf\n");
   bench.file("line.txt", "0 0\n1 1\n2 2\n");
-  CHECK(bench.run("delaunay --plane points.txt -o good.off").code == 0);
+  CHECK(bench.run("points random 20 -o globe.txt").code == 0);
+  CHECK(bench.run("delaunay globe.txt -o globe.off").code == 0);
   check_refusals(bench, "delaunay -o mesh.vtp --plane", R"(
 bad.txt | 2 | bad.txt line 3: an infinite number gives no place; remove the point or correct it
 line.txt | 2 | on one line
-good.off | 2 | --plane requires text
+globe.off | 2 | globe.off: it holds points of the sphere; give points of a plane, or leave --plane
 --lonlat points.txt | 2 | excludes
 )");
   check_refusals(bench, "delaunay -o mesh.nc points.txt", R"(
@@ -532,6 +561,6 @@ good.off | 2 | --plane requires text
 --plane --periodic 2,2 | 2 | a circle wider than half of the periodic box
 --plane --periodic 0.5,2 | 2 | point 1 is outside the periodic box
 --plane --periodic 5 | 2 | --periodic 5 is not a box
---periodic 5,5 | 2 | --plane
+--periodic 5,5 | 2 | --periodic requires --plane
 )");
 }

@@ -784,16 +784,16 @@ TEST_CASE("a lake with an island: the mesh, its report, its quality, its picture
   CHECK(done.code == 0);
   CHECK(done.out == "lake.vtp: 300 cells, all shapes within the limits of models\n");
   CHECK(has(bench.file("lake.json"), quoted("spacing")));
-  CHECK(bench.run("check --plane lake.vtp").code == 0);
-  const Outcome info = bench.run("info --plane lake.vtp --domain lake.txt --report info.json");
+  CHECK(bench.run("check lake.vtp").code == 0);
+  const Outcome info = bench.run("info lake.vtp --domain lake.txt --report info.json");
   CHECK(info.code == 0);
   CHECK(has(bench.file("info.json"), quoted("domain_area") + "31"));
-  CHECK(bench.run("draw --plane lake.vtp --domain lake.txt --what cells -o lake.png").code == 0);
+  CHECK(bench.run("draw lake.vtp --domain lake.txt --what cells -o lake.png").code == 0);
   CHECK(bench.run("draw --history lake.json -o history.png").code == 0);
 
   CHECK(bench.run(run + " -o lake.nc").code == 0);
   CHECK(bench.run("check lake.nc").code == 0);
-  CHECK(bench.run("info --plane lake.nc --domain lake.txt").code == 0);
+  CHECK(bench.run("info lake.nc --domain lake.txt").code == 0);
   CHECK(bench.run("convert lake.vtp lake.grid.nc --domain lake.txt --format ugrid").code == 0);
   CHECK(bench.run("convert lake.nc cells.vtp --format vtp-cells").code == 0);
   bench.file("islet.txt", "0 0\n8 0\n8 8\n0 8\n\n1 1\n1.1 1\n1 1.1\n");
@@ -801,7 +801,7 @@ TEST_CASE("a lake with an island: the mesh, its report, its quality, its picture
   CHECK(coarse.code == 2);
   CHECK(has(coarse.err, "encloses an island"));
   CHECK(has(coarse.err, "coarse.nc.vtp has the triangles"));
-  CHECK(bench.run("check --plane coarse.nc.vtp").code == 0);
+  CHECK(bench.run("check coarse.nc.vtp").code == 0);
 
   const Outcome stopped = bench.run(run + " --max-iterations 5 --checkpoint c --checkpoint-every 2 "
                                           "-o other.vtp");
@@ -827,8 +827,8 @@ TEST_CASE("a periodic box: MPAS's file, bisections, hexagons at rest") {
   CHECK(
       bench.run("cvt --periodic 2,1 --cells 3200 --bisections 2 --tolerance 1e-2 -o box.nc").code ==
       0);
-  CHECK(bench.run("check --plane box.nc").code == 0);
-  CHECK(bench.run("info --plane box.nc").code == 0);
+  CHECK(bench.run("check box.nc").code == 0);
+  CHECK(bench.run("info box.nc").code == 0);
 }
 
 TEST_CASE("hexagons with and without walls are written without a run, and read without a domain") {
@@ -855,7 +855,7 @@ TEST_CASE("a channel: cells between walls, as many as asked for but for a few") 
   CAPTURE(made.err);
   CHECK(made.code == 0);
   CHECK_FALSE(has(made.err, "instead of"));
-  CHECK(bench.run("check --plane c.nc").code == 0);
+  CHECK(bench.run("check c.nc").code == 0);
   const calotte::MeshFile file = calotte::read_mesh_file(bench.folder() / "c.nc");
   REQUIRE(file.plane());
   CHECK(file.mesh->surface.period() == Eigen::Vector2d(3, 0));
@@ -880,11 +880,11 @@ TEST_CASE("in the plane a width has the unit of the domain, and gives the number
   const Outcome beside = bench.run(
       "cvt --rectangle 0,0,4,3 --cell-width 0.2 --fixed two.txt --tolerance 1e-2 -o beside.nc");
   CHECK(has(beside.err, "2 fixed points leave room for 344 free ones: 346 cells")); // one cell each
-  const Outcome info = bench.run("info wide.nc --plane"); // the domain is what the cells fill
+  const Outcome info = bench.run("info wide.nc"); // the domain is what the cells fill
   CHECK(info.code == 0);
   CHECK(info.err.empty());
   CHECK(has(info.out, "cells                 346\n"));
-  const Outcome named = bench.run("info wide.nc --plane --rectangle 0,0,4,3");
+  const Outcome named = bench.run("info wide.nc --rectangle 0,0,4,3");
   const auto from_energy = [](const std::string& text) { return text.substr(text.find("energy")); };
   CHECK(from_energy(info.out).substr(0, 20) == from_energy(named.out).substr(0, 20));
 }

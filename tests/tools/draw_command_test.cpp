@@ -264,20 +264,20 @@ TEST_CASE("a mesh of the plane becomes a picture, with its domain") {
   bench.file("lake.txt", "0 0\n4 0\n4 3\n0 3\n\n1 1\n2 1\n1 2\n");
   CHECK(bench.run("points random-plane 100 --domain lake.txt -o points.txt").code == 0);
   CHECK(bench.run("delaunay --plane points.txt -o mesh.vtp").code == 0);
-  const Outcome lake =
-      bench.run("draw --plane mesh.vtp --domain lake.txt --what cells -o lake.png");
+  const Outcome lake = bench.run("draw mesh.vtp --domain lake.txt --what cells -o lake.png");
   CHECK(lake.out.starts_with("lake.png: picture of 100 sites, "));
   CHECK(bench.file("lake.png").starts_with("\x89PNG"));
-  CHECK(bench.run("draw --plane mesh.vtp -o triangles.svg --size 300").code == 0);
+  CHECK(bench.run("draw mesh.vtp -o triangles.svg --size 300").code == 0);
   CHECK(bench.run("points hexagonal 64 --periodic 1,1 -o box.txt").code == 0);
   CHECK(bench.run("delaunay --plane --periodic 1,1 box.txt -o box.nc").code == 0);
-  CHECK(bench.run("draw --plane box.nc --what both --colour quality -o box.pdf").code == 0);
+  CHECK(bench.run("draw box.nc --what both --colour quality -o box.pdf").code == 0);
   check_refusals(bench, "draw -o a.png", R"(
---plane box.nc --periodic 1,2 | 2 | the domain is not the one
---plane box.nc --rectangle 0,0,1,1 | 2 | the domain is not the one
---plane mesh.vtp --colour region | 2 | mesh.vtp
-mesh.vtp | 2 | (--plane)
-mesh.vtp --domain lake.txt | 2 | --plane
---plane mesh.vtp --view 1,2 | 2 | excludes
+box.nc --periodic 1,2 | 2 | the domain's period is not that of the mesh, 1 x 1; leave
+box.nc --rectangle 0,0,1,1 | 2 | the domain's period is not that of the mesh
+mesh.vtp --colour region | 2 | mesh.vtp
+mesh.vtp --view 1,2 | 2 | --view applies to the sphere only, and mesh.vtp holds a mesh of the plane; leave it out
+--plane mesh.vtp --view 1,2 | 2 | --view applies to the sphere only
+--density x8 --plane | 2 | a picture of a density is one of the sphere
+--density x8 --domain lake.txt | 2 | a picture of a density is one of the sphere
 )");
 }

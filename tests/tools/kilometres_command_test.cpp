@@ -181,7 +181,8 @@ TEST_CASE("info speaks in km, degrees or radians") {
   CHECK(has(shown("--cell-width 7000km"), "\nspacing, km           7053.64"));
   check_refusals(bench, "info unit.vtp", R"(
 --units km | 2 | --units km requires the radius of the sphere; give --sphere-radius earth, or a radius in metres
---plane --units km | 2 | --plane excludes --units; see calotte info --help
+--plane --units km | 2 | unit.vtp: it holds no mesh of the plane: z is not 0 at point 0; leave --plane out
+--rectangle 0,0,1,1 | 2 | --rectangle applies to the plane only, and unit.vtp holds a mesh of the sphere; leave it out
 )");
 }
 
@@ -201,7 +202,7 @@ TEST_CASE("pictures are in the unit that info has, or in that of --units") {
   CHECK((drawn("earth.nc --colour area") != drawn("earth.nc --colour area --units degrees")));
   check_refusals(bench, "draw -o a.svg", R"(
 unit.nc --units km | 2 | --units km requires the radius of the sphere; give --sphere-radius earth
-unit.nc --plane --units km | 2 | --units excludes --plane
+unit.nc --plane --units km | 2 | unit.nc: it holds no mesh of the plane
 --density x8 --units km | 2 | a density has no unit of lengths; leave --units out, or give widths in km
 )");
   check_success(bench, "draw --cell-width 7000km --units degrees -o a.svg");

@@ -70,7 +70,7 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
   CAPTURE(finer.err);
   CHECK(finer.code == 1); // by the boundary
   CHECK(has(finer.err, "because they are at the boundary or next to it"));
-  CHECK(bench.run("check --plane finer.nc").code == 0);
+  CHECK(bench.run("check finer.nc").code == 0);
   const auto obtuse = [&](const std::string& name) {
     REQUIRE(bench.run("info --plane " + name + " --rectangle 0,0,30,20 --report info.json").code ==
             0);
@@ -78,11 +78,11 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
   };
   CHECK(obtuse("finer.nc") <= obtuse("plane.nc"));
 
-  REQUIRE(bench.run("convert --plane plane.nc plane.vtp").code == 0);
-  check_refusals(bench, "refine --plane plane.vtp --cell-width demand.toml",
+  REQUIRE(bench.run("convert plane.nc plane.vtp").code == 0);
+  check_refusals(bench, "refine plane.vtp --cell-width demand.toml",
                  "-o finer.vtp | 2 | a planar mesh needs its domain");
   CHECK(bench
-            .run("refine --plane plane.vtp --rectangle 0,0,30,20 --cell-width demand.toml "
+            .run("refine plane.vtp --rectangle 0,0,30,20 --cell-width demand.toml "
                  "--gradient 0.2 -o finer.vtp")
             .code == 1);
   CHECK(read_mesh(bench.folder() / "finer.vtp", nullptr).points.cols() > 0);

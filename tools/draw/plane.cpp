@@ -160,14 +160,6 @@ std::vector<double> in_unit(std::vector<double> values, double unit) {
 
 } // namespace
 
-void set_domain(Mesh& mesh, const Surface& domain) {
-  if (domain.period() != mesh.surface.period()) {
-    refuse("the domain is not the one that the mesh was made for: one of the two is periodic, "
-           "or both with other periods; leave the domain out");
-  }
-  mesh.surface = domain;
-}
-
 Window window_of(const Mesh& mesh, const Polygons* cells) {
   Points2 points = mesh.points.topRows<2>();
   if (cells != nullptr) {

@@ -17,10 +17,6 @@ inline bool has_walls(const Mesh& mesh) {
   return mesh.surface.period().maxCoeff() > 0 && !mesh.closed();
 }
 
-/// Sets the part of the plane that clips the cells of a mesh.
-/// \throws Error invalid_argument for a domain with another period.
-void set_domain(Mesh& mesh, const Surface& domain);
-
 /// The visible part of the plane.
 struct Window {
   Eigen::Vector2d low, high;

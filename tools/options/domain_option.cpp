@@ -58,9 +58,6 @@ std::shared_ptr<DomainWords> add_domain(CLI::App& command) {
   add_periodic(command, words->periodic)
       ->excludes(command.get_option("--domain"))
       ->excludes(command.get_option("--rectangle"));
-  if (CLI::Option* const plane = command.get_option_no_throw("--plane"))
-    for (const char* name : {"--domain", "--rectangle", "--periodic"})
-      command.get_option(name)->needs(plane);
   return words;
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace calotte::tools {
 
@@ -23,8 +24,10 @@ struct DomainWords {
   bool given() const { return file || rectangle || periodic || hexagons; }
 };
 
-/// Adds --domain, --rectangle and --periodic, which require --plane of a command that has it.
+/// Adds --domain, --rectangle and --periodic.
 std::shared_ptr<DomainWords> add_domain(CLI::App& command);
+/// Their names.
+inline const std::vector<std::string> domain_names{"--domain", "--rectangle", "--periodic"};
 
 /// Adds --hexagons and --walls.
 void add_hexagons(CLI::App& command, DomainWords& words);

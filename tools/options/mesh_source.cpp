@@ -12,6 +12,7 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -48,16 +49,27 @@ std::string first_off_plane(const MeshFile& file) {
   return "";
 }
 
-} // namespace
+/// Throws for an option that is given, where the mesh is on the other surface.
+void refuse_options(const std::vector<const CLI::Option*>& options, const std::string& path,
+                    bool plane) {
+  const std::array<const char*, 2> surfaces{"sphere", "plane"};
+  for (const CLI::Option* option : options)
+    if (option->count() > 0)
+      refuse(message("{} applies to the {} only, and {} holds a mesh of the {}; leave it out",
+                     option->get_name(), surfaces[plane ? 0 : 1], path, surfaces[plane ? 1 : 0]));
+}
 
-namespace {
-
-/// Checks that the mesh is on the surface that is asked for, and warns of an odd radius.
+/// Checks that the mesh is on the surface that the options ask for, and warns of an odd radius.
 void require_surface(const MeshSource& source, const MeshFile& file) {
   const std::string& path = source.mesh_path();
-  if (source.plane && !file.plane())
+  if (file.plane()) {
+    refuse_options(source.of_sphere, path, true);
+    return;
+  }
+  if (source.plane)
     refuse_path(path, "it holds no mesh of the plane{}; leave --plane out", first_off_plane(file));
-  if (!source.plane && source.points.empty() && is_netcdf(file))
+  refuse_options(source.of_plane, path, false);
+  if (source.points.empty() && is_netcdf(file))
     warn_of_radius(file.sphere_radius, path);
 }
 
@@ -77,8 +89,7 @@ MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice,
                          const std::vector<FieldIndex>& choices) {
   std::optional<Points3> points;
   if (!source.points.empty())
-    points = source.plane ? read_planar_point_file(source.points).points
-                          : read_point_file(source.points, source.lonlat).points;
+    points = read_point_file(source.points, columns_of(source.plane, source.lonlat)).points;
   MeshFile file =
       calotte::read_mesh_file(source.mesh_path(), points ? &*points : nullptr, choice, choices);
   require_surface(source, file);
@@ -167,13 +178,17 @@ std::string changes_of(const MeshSource& source, const MeshFile& file) {
   return lines;
 }
 
-CLI::Option* add_plane(CLI::App& command, MeshSource& source) {
-  return command
-      .add_flag(
-          "--plane", source.plane,
-          "The mesh is planar. Formats: .vtp, .vtu, .off, .ply or .msh with z = 0, planar MPAS or "
-          "UGRID, or .txt and .tri with --points (x y on each line)")
+void add_plane(CLI::App& command, MeshSource& source, const std::vector<std::string>& of_sphere,
+               const std::vector<std::string>& of_plane) {
+  command
+      .add_flag("--plane", source.plane,
+                "The points of --points are x y on each line. Other files know that their mesh is "
+                "planar: .vtp, .vtu, .vtk, .off, .ply or .msh with z = 0, planar MPAS or UGRID")
       ->excludes(command.get_option("--lonlat"));
+  for (const std::string& name : of_sphere)
+    source.of_sphere.push_back(command.get_option(name));
+  for (const std::string& name : of_plane)
+    source.of_plane.push_back(command.get_option(name));
 }
 
 } // namespace calotte::tools

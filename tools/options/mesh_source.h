@@ -19,9 +19,11 @@ struct MeshSource {
   std::string path = {};
   std::string points = {};
   bool lonlat = false;
-  bool plane = false;              ///< a mesh of the plane
+  bool plane = false;              ///< --plane: the mesh is one of the plane
   std::string mesh = {};           ///< of the fields at `path`, which holds none itself; or ""
   std::vector<FieldIndex> at = {}; ///< of the dimensions of fields
+  /// The options that apply to a mesh of the sphere alone, and those to one of the plane.
+  std::vector<const CLI::Option*> of_sphere = {}, of_plane = {};
 
   /// The file that holds the mesh.
   const std::string& mesh_path() const { return mesh.empty() ? path : mesh; }
@@ -33,16 +35,19 @@ std::string file_name(const MeshSource& source);
 /// Adds the positional MESH, or of another name, and the options --points and --lonlat.
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names = "MESH");
 
-/// Adds --plane. \returns the option.
-CLI::Option* add_plane(CLI::App& command, MeshSource& source);
+/// Adds --plane. A file that is read may know better: with one of the other surface, options of
+/// these names are refused.
+void add_plane(CLI::App& command, MeshSource& source,
+               const std::vector<std::string>& of_sphere = {},
+               const std::vector<std::string>& of_plane = {});
 
 /// Adds --mesh and --at, for commands that show fields.
 void add_fields_of(CLI::App& command, MeshSource& source);
 
 /// The mesh alone, and the fields of its own file.
 /// \param choices indices of its fields. Default: none.
-/// \throws Error as read_mesh_file and read_points do; invalid_argument, with --plane, for a mesh
-///         of the sphere.
+/// \throws Error as read_mesh_file and read_points do; invalid_argument for a mesh of the sphere
+///         with --plane, and for options of another surface than the mesh's.
 MeshFile read_mesh_alone(const MeshSource& source, FieldChoice choice,
                          const std::vector<FieldIndex>& choices = {});
 

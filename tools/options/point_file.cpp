@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/point_file.h"
 
+#include "io/command.h"
 #include "options/format_options.h"
 #include "options/warning.h"
 #include "text/text.h"
@@ -21,27 +22,22 @@ PointFile read_text_points(const std::string& path, Columns columns) {
     warn(message("{}: columns after the first {} are ignored; a header that names the columns says "
                  "which count",
                  name, columns == Columns::xyz ? 3 : 2));
-  return {name, std::move(read.points), std::move(read.lines)};
+  return {name, std::move(read.points), std::move(read.lines),
+          columns == Columns::xy ? Surface::plane() : Surface::sphere()};
 }
 
 } // namespace
 
-PointFile read_point_file(const std::string& path, bool lonlat) {
-  if (holds_points(path)) {
-    if (lonlat)
-      refuse_path(path, "the points of a mesh are x y z; leave --lonlat out, or give text");
-    return {path, read_sites(path), {}};
-  }
-  return read_text_points(path, lonlat ? Columns::lonlat : Columns::xyz);
-}
-
-PointFile read_planar_point_file(const std::string& path) {
+PointFile read_point_file(const std::string& path, Columns columns) {
   if (!holds_points(path))
-    return read_text_points(path, Columns::xy);
-  Mesh mesh = read_mesh(path);
-  if (mesh.surface.is_sphere())
-    refuse_path(path, "it holds points of the sphere, not of a plane");
-  return {path, std::move(mesh.points), {}};
+    return read_text_points(path, columns);
+  if (columns == Columns::lonlat)
+    refuse_path(path, "the points of a mesh are x y z; leave --lonlat out, or give text");
+  auto [points, surface] = read_sites_and_surface(path);
+  if (columns == Columns::xy && surface.is_sphere())
+    refuse_path(path, "it holds points of the sphere; give points of a plane, or leave --plane or "
+                      "the domain out");
+  return {path, std::move(points), {}, std::move(surface)};
 }
 
 void rethrow_with_line(const Error& error, const std::string& name,

@@ -33,7 +33,10 @@ template <class Points> std::string fingerprint(const std::string& name, const P
 Points3 read(const CvtRequest& request, const std::string& path, const std::string& name,
              CvtInput::File& origin, std::string& configuration) {
   const bool plane = planar(request);
-  PointFile file = plane ? read_planar_point_file(path) : read_point_file(path, request.lonlat);
+  PointFile file = read_point_file(path, columns_of(plane, request.lonlat));
+  if (!plane && !file.surface.is_sphere())
+    refuse_path(path, "it holds points of a plane; give its domain (--rectangle, --domain or "
+                      "--periodic)");
   origin = {std::move(file.name), std::move(file.lines)};
   configuration =
       plane ? fingerprint(name, Points2(file.points.topRows<2>())) : fingerprint(name, file.points);

@@ -4,6 +4,7 @@
 #include "draw/plane.h"
 #include "draw/shapes.h"
 #include "draw/values.h"
+#include "options/domain_option.h"
 #include "text/text.h"
 
 #include <calotte/check.h>
@@ -144,9 +145,9 @@ void set_sphere(const MeshFile& file, ViewMesh& mesh) {
 
 /// Sets the part of the plane that clips the cells: the one that is known, or the box that a
 /// picture shows of a plane without an end.
-void set_surface(Mesh& mesh, const std::optional<Surface>& known) {
+void set_shown_surface(Mesh& mesh, const std::optional<Surface>& known) {
   if (known) {
-    set_domain(mesh, *known);
+    set_surface(mesh, *known);
   } else if (mesh.surface == Surface::plane()) {
     const Window window = window_of(mesh);
     mesh.surface = rectangle(window.low, window.high);
@@ -202,7 +203,7 @@ ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& cho
   require_fields(file, choice);
   const bool walled = file.plane() && by_corners(file);
   if (file.plane() && !walled)
-    set_surface(*file.mesh, choice.surface ? choice.surface : filled_surface(file));
+    set_shown_surface(*file.mesh, choice.surface ? choice.surface : filled_surface(file));
   ViewMesh mesh{.name = name, .on_sphere = !file.plane(), .radius_km = choice.radius_km};
   mesh.cells = mesh.total = cells_of(file);
   mesh.quantities = measured(file, choice);

@@ -216,24 +216,10 @@ void require_planar_points(const std::string& name, const Points3& points) {
       fail_file(name, i, "point {} has no place (NaN or infinite); make the file again", i);
     if (points(2, i) != 0)
       refuse(
-          message("{}: z is not 0 at point {}, so it is not a planar mesh; read it as one of the "
-                  "sphere",
+          message("{}: it says that its mesh is planar, but z is not 0 at point {}; make the file "
+                  "again",
                   name, i),
           i);
-  }
-}
-
-/// Requires directions, or points with z = 0. Readers have moved points of a periodic plane into
-/// it.
-void require_points(const std::string& name, RawMesh& raw) {
-  if (raw.surface.is_sphere()) {
-    require_sphere(name, raw.points);
-    require_directions(name, raw.points);
-  } else if (raw.surface.period().isZero(0)) {
-    require_planar_points(name, raw.points);
-    raw.points.row(2).setZero(); // not -0
-    if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.surface.is_sphere())
-      refuse_path(name, "it holds cells of the sphere; of a plane only triangles are read");
   }
 }
 
@@ -264,12 +250,6 @@ bool lies_in_plane(const Points3& points) {
   return points.cols() >= 3 && (points.row(2).array() == 0).all();
 }
 
-void require_sphere(const std::string& name, const Points3& points) {
-  if (lies_in_plane(points))
-    refuse_path(
-        name, "z is 0 at all points, which makes a mesh of the plane; read it as one of the plane");
-}
-
 void require_directions(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!points.col(i).allFinite() || (points.col(i).array() == 0).all())
@@ -288,6 +268,20 @@ double find_radius(const Points3& points) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.12g", mean);
   return std::strtod(text.data(), nullptr);
+}
+
+void require_points(const std::string& name, RawMesh& raw) {
+  if (raw.surface.is_sphere()) {
+    if (lies_in_plane(raw.points))
+      refuse_path(name, "z is 0 at all points, which makes a mesh of the plane, and the format has "
+                        "none; give a file of another format");
+    require_directions(name, raw.points);
+  } else if (raw.surface.period().isZero(0)) {
+    require_planar_points(name, raw.points);
+    raw.points.row(2).setZero(); // not -0
+    if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.surface.is_sphere())
+      refuse_path(name, "it holds cells of the sphere; of a plane only triangles are read");
+  }
 }
 
 MeshFile make_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {

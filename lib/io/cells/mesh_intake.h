@@ -33,8 +33,11 @@ bool lies_in_plane(const Points3& points);
 
 /// \throws Error parse, for a point without a direction.
 void require_directions(const std::string& name, const Points3& points);
-/// \throws Error invalid_argument, for points of the plane.
-void require_sphere(const std::string& name, const Points3& points);
+
+/// Requires directions, or points with z = 0. Readers have moved points of a periodic plane into
+/// it.
+/// \throws Error parse; invalid_argument, for points or cells of another surface than the mesh's.
+void require_points(const std::string& name, RawMesh& raw);
 
 /// The radius of the sphere of all points, to 12 digits; 1 if they are not on a sphere, up to the
 /// rounding in files.

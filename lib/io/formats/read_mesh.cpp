@@ -8,6 +8,7 @@
 #include "io/command.h"
 #include "io/formats/format_table.h"
 #include "io/formats/formats.h"
+#include "io/mpas/mpas.h"
 #include "io/netcdf/netcdf_reader.h"
 
 #include <calotte/error.h>
@@ -87,13 +88,18 @@ std::optional<double> find_planet(const MeshFile& content, Format format,
   return model == models().end() ? std::nullopt : std::optional(model->planet_radius);
 }
 
+/// Points with z = 0 are those of a plane, in a format that does not say it itself.
+void set_surface(const FormatRow& row, RawMesh& raw) {
+  if (raw.surface.is_sphere() && row.reads_planes && lies_in_plane(raw.points))
+    raw.surface = Surface::plane();
+}
+
 MeshFile read_any(const std::string& path, FieldChoice choice) {
   const OpenFile file(path);
   if (file.row->read == nullptr)
     refuse_triangles_alone(path);
   RawMesh raw = file.row->read(file.input(path, choice));
-  if (raw.surface.is_sphere() && file.row->reads_planes && lies_in_plane(raw.points))
-    raw.surface = Surface::plane();
+  set_surface(*file.row, raw);
   MeshFile content = make_mesh_file(path, file.row->label, std::move(raw));
   content.planet_radius =
       find_planet(content, file.row->info.format, file.netcdf ? &*file.netcdf : nullptr);
@@ -102,23 +108,30 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
 
 // ---- Points alone
 
-/// Reads the sites only, where reading the rest is slow or may fail.
+/// The sites, and of the sphere only these where reading the rest is slow or may fail.
 /// \throws Error invalid_argument, for cells without centres.
-Points3 read_sites_of_mesh(const std::string& path) {
+RawMesh read_raw_sites(const std::string& path) {
   const OpenFile file(path);
   const InputFile input = file.input(path, FieldChoice::none);
-  if (file.row->read_sites != nullptr)
-    return file.row->read_sites(input);
+  if (file.row->read_sites != nullptr && !(file.netcdf && is_planar_mpas(*file.netcdf)))
+    return {.points = file.row->read_sites(input)};
   if (file.row->read == nullptr)
     refuse_triangles_alone(path);
   RawMesh raw = file.row->read(input);
   if (raw.points.cols() == 0 && raw.polygons.size() > 0)
     refuse_path(path, "its cells have no centres, so it has no sites; "
                       "read them with read_mesh_file()");
-  return std::move(raw.points);
+  set_surface(*file.row, raw);
+  return raw;
 }
 
 } // namespace
+
+SitesOfFile read_sites_and_surface(const std::string& path) {
+  RawMesh raw = read_raw_sites(path);
+  require_points(path, raw);
+  return {std::move(raw.points), std::move(raw.surface)};
+}
 
 bool is_netcdf_file(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error))
@@ -174,9 +187,10 @@ Mesh read_mesh(const std::string& path, const Points3* points) {
 }
 
 Points3 read_sites(const std::string& path) {
-  Points3 sites = read_sites_of_mesh(path);
-  require_sphere(path, sites);
-  require_directions(path, sites);
+  auto [sites, surface] = read_sites_and_surface(path);
+  base_detail::require(surface.is_sphere(),
+                       "{} holds a mesh of the plane, not of the sphere; read it with read_mesh()",
+                       path);
   return sites;
 }
 

@@ -7,6 +7,7 @@
 #include "draw/vector.h"
 #include "draw/view.h"
 #include "io/netcdf/netcdf_writer.h"
+#include "options/domain_option.h"
 #include "support/clouds.h"
 #include "support/constants.h"
 #include "support/pictures.h"
@@ -674,10 +675,10 @@ TEST_CASE("a domain of another period is not one of the mesh") {
     for (const Surface& domain : {holed(), Surface::periodic({2, 1}), Surface::periodic({2, 2})}) {
       Mesh mesh = c.mesh;
       if (domain.period() == mesh.surface.period()) {
-        set_domain(mesh, domain);
+        set_surface(mesh, domain);
         CHECK(mesh.surface == domain);
       } else {
-        CHECK(code_of([&] { set_domain(mesh, domain); }) == ErrorCode::invalid_argument);
+        CHECK(code_of([&] { set_surface(mesh, domain); }) == ErrorCode::invalid_argument);
         CHECK(mesh.surface == c.mesh.surface);
       }
     }
