@@ -95,8 +95,8 @@ struct DrawOptions {
 /// written beside its path and renamed when whole.
 ///
 /// On the sphere the points may have any norm. In the plane, of the look, only size, palette, range
-/// and title have an effect. The rings of the mesh's surface clip the cells, or otherwise a box
-/// slightly larger than the sites does. Triangles are not clipped, but those with their
+/// and title have an effect. The rings of the mesh's surface clip the cells, or otherwise the
+/// triangles' hull does. Triangles are not clipped, but those with their
 /// circumcentre outside the surface are left out. Of a periodic direction one period is drawn.
 /// \throws Error invalid_argument, also for cells' area or quality of an open mesh, and for a
 ///         density or field that does not fit; file.

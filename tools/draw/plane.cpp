@@ -69,15 +69,15 @@ template <class Visit> void each_side(const Polygons& cells, const Visit& visit)
     visit(between(ids[0], ids[1]), cell, std::int64_t{-1});
 }
 
-/// For each site the mean distance to the neighbours: sites whose cells meet its own inside the
-/// mesh's part of the plane, as triangles reach across bays and islands. NaN for a cell that meets
+/// For each site the mean distance to the neighbours: sites whose cells meet its own inside a part
+/// of the plane, as triangles reach across bays and islands. NaN for a cell that meets
 /// no other.
-std::vector<double> spacings(const Mesh& mesh, const Polygons& cells) {
+std::vector<double> spacings(const Mesh& mesh, const Surface& part, const Polygons& cells) {
   const auto n = static_cast<std::size_t>(mesh.points.cols());
   const Vector2d period = mesh.surface.period();
   std::vector<double> sums(n), counts(n);
   each_side(cells, [&](const Side& side, std::int64_t cell, std::int64_t other) {
-    if (other < 0 || !reaches(mesh.surface, side))
+    if (other < 0 || !reaches(part, side))
       return;
     Vector2d way = (mesh.points.col(other) - mesh.points.col(cell)).head<2>();
     for (int k = 0; k < 2; ++k)
@@ -97,6 +97,36 @@ Voronoi cut_off(const Mesh& mesh, const Window& window) {
   return voronoi(
       delaunay(mesh.points, rectangle(window.low.cwiseMin(sites.rowwise().minCoeff()),
                                       window.high.cwiseMax(sites.rowwise().maxCoeff()))));
+}
+
+/// The boundary of the triangles: of a triangulation of points their convex hull. None where it
+/// passes a site twice, and where triangles overlap.
+Surface hull_of(const Mesh& mesh) {
+  std::map<std::int32_t, std::int32_t> next;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (mesh.neighbours(k, t) < 0 &&
+          !next.emplace(mesh.triangles((k + 1) % 3, t), mesh.triangles((k + 2) % 3, t)).second)
+        return Surface::plane();
+  Surface::Rings rings;
+  while (!next.empty()) {
+    std::vector<std::int32_t> ring;
+    for (auto at = next.begin(); at != next.end(); at = next.find(ring.back())) {
+      ring.push_back(at->second);
+      next.erase(at);
+    }
+    rings.emplace_back(mesh.points(Eigen::seqN(0, 2), ring));
+  }
+  try {
+    return Surface::plane().within(std::move(rings));
+  } catch (const Error&) { // the triangles overlap
+    return Surface::plane();
+  }
+}
+
+/// What clips the cells.
+Surface part_of(const Mesh& mesh, bool cut) {
+  return cut && mesh.surface == Surface::plane() ? hull_of(mesh) : mesh.surface;
 }
 
 // ---- The scene
@@ -137,15 +167,14 @@ Scene scene_of(const Mesh& mesh, Shapes shapes, const Window& window, const Poly
   return scene;
 }
 
-/// The sites whose cells the boundary clips, or without one the box around the sites.
-std::vector<bool> sites_at_boundary(const Mesh& mesh) {
-  if (mesh.surface.is_bounded())
-    return clipped_cells(mesh);
-  Mesh boxed;
-  boxed.points = mesh.points;
-  boxed.surface = rectangle(mesh.points.topRows<2>().rowwise().minCoeff(),
-                            mesh.points.topRows<2>().rowwise().maxCoeff());
-  return clipped_cells(boxed);
+/// The sites whose cells a part of the plane clips, or without one the box around the sites.
+std::vector<bool> sites_at_boundary(const Mesh& mesh, const Surface& part) {
+  Mesh clipped;
+  clipped.points = mesh.points;
+  clipped.surface = part.is_bounded() ? part
+                                      : rectangle(mesh.points.topRows<2>().rowwise().minCoeff(),
+                                                  mesh.points.topRows<2>().rowwise().maxCoeff());
+  return clipped_cells(clipped);
 }
 
 /// The power of the scene's unit in a quantity: 1 for lengths, 2 for areas, otherwise 0.
@@ -181,20 +210,21 @@ Window window_of(const Mesh& mesh, const Polygons* cells) {
 }
 
 PlaneMap::PlaneMap(const Mesh& mesh, const DrawOptions& options)
-    : given(mesh.closed() ? nullptr : options.cells), window(window_of(mesh, given)) {
+    : given(mesh.closed() ? nullptr : options.cells), window(window_of(mesh, given)),
+      part(part_of(mesh, given == nullptr && !mesh.closed())) {
   const bool cut = given == nullptr && !mesh.closed();
   const bool by_triangles = options.shapes == Shapes::triangles;
   if (cut && !by_triangles)
     require_closed_cells(options.colouring);
   cells = given != nullptr ? *given : polygons_of(cut ? cut_off(mesh, window) : voronoi(mesh));
-  spacing = spacings(mesh, cells);
+  spacing = spacings(mesh, part, cells);
   cells = unwrapped(std::move(cells));
   const Vector2d middle = window.middle();
   cells.corners.topRows<2>() = (cells.corners.topRows<2>().colwise() - middle) / window.half();
   painting.scene = scene_of(mesh, options.shapes, window, cells);
   const Scene& scene = painting.scene;
   const bool clips = cut && options.colouring == Colouring::valence;
-  const std::vector<bool> clipped = clips ? sites_at_boundary(mesh) : std::vector<bool>();
+  const std::vector<bool> clipped = clips ? sites_at_boundary(mesh, part) : std::vector<bool>();
   painting.values =
       options.colouring == Colouring::spacing && !by_triangles
           ? spacing
@@ -234,7 +264,7 @@ void add_window(cairo_t* context, const Sheet& sheet, double margin = 0) {
 }
 
 void add_rings(cairo_t* context, const Sheet& sheet) {
-  for (const DoubleMatrix& ring : sheet.mesh.surface.rings()) {
+  for (const DoubleMatrix& ring : sheet.map.part.rings()) {
     cairo_new_sub_path(context);
     for (const auto& corner : ring.colwise())
       cairo_line_to(context, sheet.at(corner).x(), sheet.at(corner).y());
@@ -256,7 +286,7 @@ void add_open_sides(cairo_t* context, const Sheet& sheet) {
   });
 }
 
-/// White beyond the mesh's part of the plane. A clip path of the rings would stand in an SVG file
+/// White beyond the part of the plane. A clip path of the rings would stand in an SVG file
 /// once for each shape.
 void cover_outside(cairo_t* context, const Sheet& sheet) {
   cairo_set_fill_rule(context, CAIRO_FILL_RULE_EVEN_ODD);
@@ -266,9 +296,12 @@ void cover_outside(cairo_t* context, const Sheet& sheet) {
   cairo_fill(context);
 }
 
-/// Cells end at the mesh's part of the plane; triangles may reach beyond it.
+/// Cells end at the mesh's part of the plane; triangles may reach beyond it, but not beyond their
+/// hull.
 void paint_shapes(cairo_t* context, const Sheet& sheet) {
   const bool cells = sheet.options.shapes != Shapes::triangles;
+  const bool bounded = sheet.map.part.is_bounded(),
+             hull = bounded && !sheet.mesh.surface.is_bounded();
   cairo_save(context);
   add_window(context, sheet);
   cairo_clip(context);
@@ -281,12 +314,12 @@ void paint_shapes(cairo_t* context, const Sheet& sheet) {
   draw_flat_markers(context, sheet.map.painting, sheet.unit, extent.prod(),
                     marker_radius(sheet.page));
   cairo_restore(context);
-  if (cells && sheet.mesh.surface.is_bounded())
+  if (bounded && (cells || hull))
     cover_outside(context, sheet);
 }
 
 void stroke_boundary(cairo_t* context, const Sheet& sheet) {
-  const bool bounded = sheet.mesh.surface.is_bounded();
+  const bool bounded = sheet.map.part.is_bounded();
   if (bounded)
     add_rings(context, sheet);
   else if (sheet.map.given != nullptr)

@@ -4,6 +4,7 @@
 #include "draw/draw.h"
 #include "draw/painting.h"
 
+#include <calotte/surface.h>
 #include <calotte/voronoi.h>
 
 #include <string>
@@ -32,7 +33,7 @@ struct Window {
 Window window_of(const Mesh& mesh, const Polygons* cells = nullptr);
 
 /// What a picture of a mesh of the plane shows. Its cells are those of the options, those of a box,
-/// or else those of the whole plane, which the window cuts off.
+/// or else those of the whole plane, cut off at the mesh's part of it or at the triangles' hull.
 struct PlaneMap {
   /// \throws Error invalid_argument for a density or field that does not fit, and for the area or
   ///         quality of cells that the window cuts off.
@@ -42,6 +43,7 @@ struct PlaneMap {
 
   const Polygons* given; ///< the options' cells; null for a box, which has its own
   Window window;
+  Surface part;                ///< what clips the cells; a plane without an end where nothing does
   Polygons cells;              ///< in the scene's unit
   std::vector<double> spacing; ///< by site: mean distance to the neighbours, in the mesh's unit
   Painting painting;           ///< its values are in the mesh's unit

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -549,13 +550,26 @@ Surface holed() {
 
 struct PlaneCase {
   Mesh mesh;
-  double margin; ///< of the window around the domain
+  Surface part;  ///< where cells are drawn
+  double margin; ///< of the window around it
 };
+
+/// Sites whose hull is an octagon that touches the sides of a rectangle of 2 x 1.
+PlaneCase case_of_hull() {
+  Points2 corners(2, 8);
+  corners << 0, 0.5, 1.5, 2, 2, 1.5, 0.5, 0, 0.3, 0, 0, 0.3, 0.7, 1, 1, 0.7;
+  const Surface octagon = Surface::plane().within({corners});
+  Points3 points = Points3::Zero(3, 80);
+  points.leftCols(72) = random_points(72, octagon, {}, 4);
+  points.rightCols(8).topRows<2>() = corners;
+  return {delaunay(points, Surface::plane()), octagon, 0.08};
+}
 
 std::vector<PlaneCase> plane_cases() {
   const Surface box = Surface::periodic({2, 1});
-  return {{delaunay(random_points(80, holed(), {}, 2), holed()), 0.02},
-          {delaunay(random_points(80, box, {}, 3), box), 0}};
+  return {{delaunay(random_points(80, holed(), {}, 2), holed()), holed(), 0.02},
+          {delaunay(random_points(80, box, {}, 3), box), box, 0},
+          case_of_hull()};
 }
 
 DrawOptions coloured_by_number(const Mesh& mesh, Shapes shapes) {
@@ -598,7 +612,7 @@ Nearest nearest(const PlaneCase& c, const Eigen::Vector2d& point) {
 
 } // namespace
 
-TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain") {
+TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain or the hull") {
   const Folder folder;
   for (const PlaneCase& c : plane_cases()) {
     const DrawOptions options = coloured_by_number(c.mesh, Shapes::cells);
@@ -619,7 +633,7 @@ TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain
         const int px = static_cast<int>(page.middle_x - page.map.width / 2.0) + x,
                   py = static_cast<int>(page.middle_y - page.map.height / 2.0) + y;
         const auto inside = [&](double dx, double dy) {
-          return c.mesh.surface.contains({point.x() + dx / unit, point.y() + dy / unit, 0});
+          return c.part.contains({point.x() + dx / unit, point.y() + dy / unit, 0});
         };
         const int around = inside(3, 3) + inside(-3, 3) + inside(3, -3) + inside(-3, -3);
         if (around == 0) {
@@ -668,6 +682,29 @@ TEST_CASE("a plane's pictures are written in every format, shape and colouring")
   options.density.kind = Density::Kind::maximum; // of no bumps
   CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::invalid_argument);
   CHECK(!fs::exists(folder.file("b.png")));
+}
+
+TEST_CASE("nothing is drawn beyond the triangles of a plane, whose boundary may be concave") {
+  const Folder folder;
+  std::ofstream(folder.file("l.off")) // an L
+      << "OFF\n6 4 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n"
+         "3 0 1 3\n3 1 2 3\n3 0 3 5\n3 3 4 5\n";
+  const Mesh mesh = read_mesh(folder.file("l.off"));
+  REQUIRE(mesh.triangles.cols() == 4);
+  for (const Shapes shapes : {Shapes::triangles, Shapes::cells}) {
+    draw(folder.file("l.png"), mesh, coloured_by_number(mesh, shapes));
+    const Picture picture(folder.file("l.png"));
+    const Page page = page_of_plane(600, 1, true);
+    const double unit = page.map.width / 2.16; // pixels
+    const auto at = [&](double x, double y) {
+      return picture.at(static_cast<int>(page.middle_x + unit * (x - 1)),
+                        static_cast<int>(page.middle_y - unit * (y - 1)));
+    };
+    CHECK(at(1.5, 1.5) == 0xffffff);
+    CHECK(at(-0.05, 1) == 0xffffff);
+    CHECK(at(1.5, 0.6) != 0xffffff);
+    CHECK(at(0.4, 1.9) != 0xffffff);
+  }
 }
 
 TEST_CASE("a domain of another period is not one of the mesh") {
