@@ -137,13 +137,19 @@ bool shows_field(const DrawOptions& options) {
   return options.colouring == Colouring::field || options.colouring == Colouring::region;
 }
 
-/// The cells of a limited-area grid show its zones, unless another colouring is given.
+bool has_cells(Shapes shapes) { return shapes == Shapes::cells || shapes == Shapes::both; }
+
+/// Points are black, and the cells of a limited-area grid show its zones, unless another colouring
+/// is given.
 void choose_colouring(const DrawArguments& arguments, const MeshFile& file, DrawOptions& options) {
   const auto is_mask = [](const MeshField& field) {
     return field.name == limited_area_mask_name && field.location == FieldLocation::cells &&
            field.values.size() > 0 && field.values.maxCoeff() > 0;
   };
-  if (arguments.colour->count() == 0 && options.shapes != Shapes::triangles && file.mesh &&
+  if (arguments.colour->count() == 0 && options.shapes == Shapes::points) {
+    options.colouring = Colouring::none;
+  }
+  if (arguments.colour->count() == 0 && has_cells(options.shapes) && file.mesh &&
       !file.mesh->closed() && std::any_of(file.fields.begin(), file.fields.end(), is_mask)) {
     options.colouring = Colouring::region;
   }

@@ -157,9 +157,12 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
   DrawOptions& options = arguments.options;
   add_choice<Shapes>(
       command, "--what", options.shapes,
-      {{"triangles", Shapes::triangles}, {"cells", Shapes::cells}, {"both", Shapes::both}},
-      "Shapes: triangles (Delaunay), cells (Voronoi), or both (edges of the triangles on the "
-      "cells)");
+      {{"triangles", Shapes::triangles},
+       {"cells", Shapes::cells},
+       {"both", Shapes::both},
+       {"points", Shapes::points}},
+      "Shapes: triangles (Delaunay), cells (Voronoi), both (edges of the triangles on the cells), "
+      "or points (a dot for each site, black without --colour)");
   arguments.what = command.get_option("--what");
   add_colour(command, arguments);
   add_sphere_radius(command, arguments.sphere_radius,

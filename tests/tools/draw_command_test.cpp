@@ -268,6 +268,12 @@ TEST_CASE("a mesh of the plane becomes a picture, with its domain") {
   CHECK(lake.out.starts_with("lake.png: picture of 100 sites, "));
   CHECK(bench.file("lake.png").starts_with("\x89PNG"));
   CHECK(bench.run("draw mesh.vtp -o triangles.svg --size 300").code == 0);
+  CHECK(bench.run("draw mesh.vtp --what points -o points.svg --size 300 --title x").code == 0);
+  const std::string dots = bench.file("points.svg");
+  CHECK(has(dots, "stroke:rgb(0%,0%,0%)"));
+  CHECK(!has(dots, "stroke:rgb(26")); // no lines of cells
+  CHECK(bench.run("draw mesh.vtp --what points --colour spacing -o coloured.svg").code == 0);
+  CHECK(!has(bench.file("coloured.svg"), "stroke:rgb(0%,0%,0%)"));
   CHECK(bench.run("points hexagonal 64 --periodic 1,1 -o box.txt").code == 0);
   CHECK(bench.run("delaunay --plane --periodic 1,1 box.txt -o box.nc").code == 0);
   CHECK(bench.run("draw box.nc --what both --colour quality -o box.pdf").code == 0);

@@ -182,6 +182,7 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLa
   if (options.shapes == Shapes::both) {
     painting.triangle_widths = widths_of(painting.scene, Shapes::triangles);
   }
+  painting.of_points = options.shapes == Shapes::points;
   if (options.colouring == Colouring::valence) {
     painting.markers = markers_of(painting.scene, site_valences(painting.scene),
                                   widths_of(painting.scene, Shapes::cells));
@@ -226,6 +227,10 @@ MapSize image_size(cairo_t* context, const MapSize& map) {
 
 void paint_mesh(cairo_t* context, const Page& page, const Painting& painting,
                 const MapWindow& window, bool paths) {
+  if (painting.of_points) {
+    draw_points(context, painting, window, page.map.width, point_radius(page));
+    return;
+  }
   if (paths) {
     vector_map(context, painting, window, page.map.width);
   } else {

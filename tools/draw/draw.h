@@ -25,6 +25,7 @@ enum class Shapes {
   cells,     ///< the Voronoi cells; cells without bound at an open boundary are omitted,
              ///< unless DrawOptions::cells gives their shapes
   both,      ///< the cells, with the triangles' edges on top
+  points,    ///< the sites, each a dot in the colour of its cell, or black; as in a stippling
 };
 
 /// The quantity that colours the shapes. Cells have the values of their sites; triangles their own,

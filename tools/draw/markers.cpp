@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
 
 namespace calotte::tools {
 
@@ -52,7 +54,90 @@ void draw_dots(cairo_t* context, const Painting& painting, const MapWindow& wind
   }
 }
 
+constexpr double least_point = 0.5; ///< radius, pixels
+constexpr Rgb black = {0, 0, 0}, no_value_colour = {0.7, 0.7, 0.7};
+
+/// Of the tenth of the cells that are narrowest, the widest.
+double narrow_width(std::vector<float> widths) {
+  const auto at = widths.begin() + std::ssize(widths) / 10;
+  std::nth_element(widths.begin(), at, widths.end());
+  return *at;
+}
+
+Rgb point_colour(const Painting& painting, std::size_t site) {
+  if (painting.scale.colouring == Colouring::none)
+    return black;
+  const double value = painting.values[site];
+  return std::isnan(value) ? no_value_colour : painting.scale.colour(value);
+}
+
+/// Whether a dot is at least partly in the window of a plane. \param radius in the scene's unit.
+bool may_show_dot(const Scene& scene, const Vector3d& at, double radius) {
+  const auto beyond = [&](int k) { return std::abs(at[k]) > scene.reach[k] + radius; };
+  return !scene.flat || !(beyond(0) || beyond(1));
+}
+
+/// A line without length and with a round cap is a dot, and many are one path: SVG needs a few
+/// bytes for each.
+template <class Map>
+void draw_sites(cairo_t* context, const Painting& painting, const MapWindow& window, double scale,
+                double most_radius) {
+  const Scene& scene = painting.scene;
+  const double radius = std::clamp(0.4 * narrow_width(painting.widths) * scale, least_point,
+                                   std::max(least_point, most_radius));
+  cairo_new_path(context);
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_width(context, 2 * radius);
+  constexpr int most_in_path = 1000;
+  std::optional<std::uint32_t> colour;
+  int dots = 0;
+  const auto stroke = [&] {
+    if (dots > 0)
+      cairo_stroke(context);
+    dots = 0;
+  };
+  for (std::size_t i = 0; i < painting.widths.size(); ++i) {
+    const Rgb own = point_colour(painting, i);
+    if (colour != bytes_of(own) || dots >= most_in_path) {
+      stroke();
+      set_colour(context, own);
+      colour = bytes_of(own);
+    }
+    for (const Vector3d& copy : scene.copies) {
+      const Vector3d at = scene.sites.col(static_cast<Eigen::Index>(i)) + copy;
+      if (!Map::shows_some({at}) || !Map::may_show({at}, window) ||
+          !may_show_dot(scene, at, radius / scale))
+        continue;
+      const MapPoint point = Map::project(at);
+      cairo_move_to(context, scale * point.u, -scale * point.v);
+      cairo_line_to(context, scale * point.u, -scale * point.v);
+      ++dots;
+    }
+  }
+  stroke();
+}
+
 } // namespace
+
+void draw_points(cairo_t* context, const Painting& painting, const MapWindow& window, double width,
+                 double most_radius) {
+  cairo_save(context);
+  add_border(context, window, width);
+  cairo_clip(context);
+  with_map(window.projection, [&]<class Map>() {
+    const double scale = window.scale<Map>(width);
+    cairo_translate(context, 0, scale * window.middle);
+    draw_sites<Map>(context, painting, window, scale, most_radius);
+  });
+  cairo_restore(context);
+}
+
+void draw_flat_points(cairo_t* context, const Painting& painting, double scale,
+                      double most_radius) {
+  cairo_save(context);
+  draw_sites<Flat>(context, painting, {}, scale, most_radius);
+  cairo_restore(context);
+}
 
 std::vector<Marker> markers_of(const Scene& scene, const std::vector<double>& valences,
                                const std::vector<float>& widths) {

@@ -15,6 +15,15 @@ namespace calotte::tools {
 std::vector<Marker> markers_of(const Scene& scene, const std::vector<double>& valences,
                                const std::vector<float>& widths);
 
+/// A dot for each site, black for Colouring::none. All have one size, so that their number tells
+/// how dense the sites are: four fifths of the width of narrow cells, at least a pixel wide.
+/// \param width of the window, around the origin; \param most_radius of few sites, pixels.
+void draw_points(cairo_t* context, const Painting& painting, const MapWindow& window, double width,
+                 double most_radius);
+
+/// The same in a plane, at that number of pixels per unit, within the clip path.
+void draw_flat_points(cairo_t* context, const Painting& painting, double scale, double most_radius);
+
 /// Dots of one size, in the colours of their valences, where cells are smaller than a dot. Many
 /// dots are smaller than few, so that they cover at most a fifth of the map; below a radius of one
 /// pixel none is drawn. \param width of the window, around the origin; \param radius of few dots,

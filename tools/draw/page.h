@@ -40,6 +40,9 @@ Page page_of_plane(int size, double aspect, bool with_legend);
 /// The radius of one of few dots that mark cells too small to see, pixels.
 inline double marker_radius(const Page& page) { return std::max(2.0, 0.2 * page.text); }
 
+/// The radius of the dots of a few sites, pixels.
+inline double point_radius(const Page& page) { return 1.5 * marker_radius(page); }
+
 /// The texts around the map.
 struct Surroundings {
   Look look;

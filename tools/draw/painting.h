@@ -27,6 +27,7 @@ struct Painting {
   std::vector<float> widths;          ///< by shape, on the unit sphere
   std::vector<float> triangle_widths; ///< of the triangles drawn over cells; empty where none are
   std::vector<Marker> markers = {};   ///< for Colouring::valence
+  bool of_points = false;             ///< Shapes::points: the cells have only the dots' colours
   Scale scale;
 };
 

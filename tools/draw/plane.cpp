@@ -233,6 +233,7 @@ PlaneMap::PlaneMap(const Mesh& mesh, const DrawOptions& options)
   painting.widths = widths_of(scene, scene.shapes);
   if (options.shapes == Shapes::both)
     painting.triangle_widths = widths_of(scene, Shapes::triangles);
+  painting.of_points = options.shapes == Shapes::points;
   if (options.colouring == Colouring::valence)
     painting.markers =
         markers_of(scene, site_valences(scene, clipped), widths_of(scene, Shapes::cells));
@@ -296,6 +297,14 @@ void cover_outside(cairo_t* context, const Sheet& sheet) {
   cairo_fill(context);
 }
 
+void paint_points(cairo_t* context, const Sheet& sheet) {
+  cairo_save(context);
+  add_window(context, sheet);
+  cairo_clip(context);
+  draw_flat_points(context, sheet.map.painting, sheet.unit, point_radius(sheet.page));
+  cairo_restore(context);
+}
+
 /// Cells end at the mesh's part of the plane; triangles may reach beyond it, but not beyond their
 /// hull.
 void paint_shapes(cairo_t* context, const Sheet& sheet) {
@@ -352,7 +361,10 @@ void draw_plane(const std::string& path, const Mesh& mesh, const DrawOptions& op
   const Sheet sheet{page, map, mesh, options, page.map.width * map.window.half() / extent.x()};
   write_picture(path, page.width, page.height, [&](cairo_t* context) {
     draw_page(context, page, title_of(sheet), legend, [&] {
-      paint_shapes(context, sheet);
+      const bool points = options.shapes == Shapes::points;
+      (points ? paint_points : paint_shapes)(context, sheet);
+      if (points && mesh.surface == Surface::plane() && map.given == nullptr)
+        return; // nothing bounds them
       cairo_save(context);
       if (map.given != nullptr) { // walls go on beyond the window
         add_window(context, sheet);

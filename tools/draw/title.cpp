@@ -31,7 +31,7 @@ std::string symbol_of(const Unit& unit) { return unit.name == "degrees" ? "\u00b
 
 std::string counts_of(const Mesh& mesh, Shapes shapes) {
   return message(
-      "{} cells{}", grouped(mesh.points.cols()),
+      "{} {}{}", grouped(mesh.points.cols()), shapes == Shapes::points ? "points" : "cells",
       shapes == Shapes::triangles ? message(", {} triangles", grouped(mesh.triangles.cols())) : "");
 }
 

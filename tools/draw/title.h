@@ -15,7 +15,7 @@ std::string range_text(double low, double high, const std::string& unit);
 /// The unit of lengths in such a range: a word, or the sign of degrees.
 std::string symbol_of(const Unit& unit);
 
-/// "10 242 cells", and the number of triangles where these are drawn.
+/// "10 242 cells", of dots points, and the number of triangles where these are drawn.
 std::string counts_of(const Mesh& mesh, Shapes shapes);
 
 /// The title of a picture of a mesh, marked text: its name, its parts and the range of a length,

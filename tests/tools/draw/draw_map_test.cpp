@@ -652,7 +652,7 @@ TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain
 TEST_CASE("a plane's pictures are written in every format, shape and colouring") {
   const Folder folder;
   for (const PlaneCase& c : plane_cases())
-    for (const Shapes shapes : {Shapes::triangles, Shapes::cells, Shapes::both})
+    for (const Shapes shapes : {Shapes::triangles, Shapes::cells, Shapes::both, Shapes::points})
       for (const Colouring colouring :
            {Colouring::spacing, Colouring::angle, Colouring::valence, Colouring::area,
             Colouring::quality, Colouring::density, Colouring::field, Colouring::none}) {
@@ -682,6 +682,72 @@ TEST_CASE("a plane's pictures are written in every format, shape and colouring")
   options.density.kind = Density::Kind::maximum; // of no bumps
   CHECK(code_of([&] { draw(folder.file("b.png"), mesh, options); }) == ErrorCode::invalid_argument);
   CHECK(!fs::exists(folder.file("b.png")));
+}
+
+namespace {
+
+/// Pixels of a map that are black, and points at which they are.
+struct Dots {
+  int black = 0, seen = 0;
+};
+
+Dots dots_in(const std::string& path, const Page& page,
+             const std::vector<Eigen::Vector2d>& points) {
+  const Picture picture(path);
+  REQUIRE(picture.width() == page.width);
+  Dots dots;
+  for (int y = static_cast<int>(page.middle_y) - page.map.height / 2;
+       y < static_cast<int>(page.middle_y) + page.map.height / 2; ++y)
+    for (int x = 0; x < picture.width(); ++x)
+      dots.black += (picture.at(x, y) & 0xff) < 0x80;
+  for (const Eigen::Vector2d& point : points)
+    dots.seen += (picture.at(static_cast<int>(page.middle_x + point.x()),
+                             static_cast<int>(page.middle_y - point.y())) &
+                  0xff) < 0x80;
+  return dots;
+}
+
+} // namespace
+
+TEST_CASE("points are black dots of one size at the sites, on white") {
+  const Folder folder;
+  DrawOptions options;
+  options.look.size = 600;
+  options.look.coastlines = false;
+  options.shapes = Shapes::points;
+  options.colouring = Colouring::none;
+  std::vector<Eigen::Vector2d> points;
+  Dots dots;
+  const auto check = [&](std::size_t count) {
+    CHECK(dots.seen == static_cast<int>(count));
+    const double area = static_cast<double>(dots.black) / static_cast<double>(count);
+    CHECK(area > 3); // pixels of each dot
+    CHECK(area < 200);
+  };
+  for (const PlaneCase& c : {plane_cases()[0], plane_cases()[2]}) {
+    draw(folder.file("a.png"), c.mesh, options);
+    const double width = 2 + 2 * c.margin;
+    const Page page = page_of_plane(600, (1 + 2 * c.margin) / width, false);
+    points.clear();
+    for (Eigen::Index i = 0; i < c.mesh.points.cols(); ++i)
+      points.emplace_back(page.map.width / width *
+                          (c.mesh.points.col(i).head<2>() - Eigen::Vector2d(1, 0.5)));
+    dots = dots_in(folder.file("a.png"), page, points);
+    if (!c.mesh.surface.is_bounded())
+      check(points.size());
+    else
+      CHECK(dots.seen == 80); // its boundary is black, too
+  }
+  const Mesh globe = delaunay(fibonacci_sphere(500));
+  options.look.view = LonLat{0, 90};
+  draw(folder.file("a.png"), globe, options);
+  const Page page = page_of(options.look, false);
+  points.clear();
+  for (Eigen::Index i = 0; i < globe.points.cols(); ++i)
+    if (const Eigen::Vector3d p = globe.points.col(i); p.z() > 0.2) // x is down, y right
+      points.emplace_back(page.map.width / 2.0 * Eigen::Vector2d(p.y(), -p.x()));
+  dots = dots_in(folder.file("a.png"), page, points);
+  check(points.size());
 }
 
 TEST_CASE("nothing is drawn beyond the triangles of a plane, whose boundary may be concave") {
