@@ -349,6 +349,7 @@ void write_hexagons(const CvtRequest& request) {
 }
 
 void run(CvtRequest request) {
+  set_domain_of_picture(request);
   request.density->widths.plane = planar(request);
   if (request.domain->hexagons) {
     write_hexagons(request);

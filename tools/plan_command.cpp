@@ -148,6 +148,7 @@ void print_hexagons(const PlanRequest& request) {
 }
 
 void run(const PlanRequest& request) {
+  set_domain_of_picture(*request.run);
   request.run->density->widths.plane = planar(*request.run);
   if (request.run->domain->hexagons) {
     print_hexagons(request);

@@ -22,7 +22,7 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Reads all bytes of a file.
+/// Reads all bytes of a file of any kind.
 /// \throws Error file.
 std::string read_file(const std::string& path);
 

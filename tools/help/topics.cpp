@@ -40,7 +40,8 @@ Instead of --density:
   --cell-width 60km          one width; 163842 cells are 60 km wide on the Earth
   --cell-width FILE          widths in km: NetCDF cellWidth(lat, lon), JIGSAW .msh, .geojson, or
                              rules (.toml), see calotte help widths
-  --density-raster FILE      NetCDF density(lat, lon), in the plane density(y, x)
+  --density-raster FILE      NetCDF density(lat, lon), in the plane density(y, x), or there a
+                             picture (.png): generators are as dense as it is dark
 
 calotte plan describes the grid that a density or widths lead to; calotte draw shows them on a map.
 )";

@@ -217,9 +217,12 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
                "holds before that number scales the widths")
       ->needs(file);
   command
-      .add_option(
-          "--density-raster", words.raster,
-          "NetCDF raster density(lat, lon), in the plane density(y, x), instead of --density")
+      .add_option("--density-raster", words.raster,
+                  "NetCDF raster density(lat, lon), in the plane density(y, x), instead of "
+                  "--density; or in "
+                  "the plane a picture (.png), where it is dark cells are dense. Its pixels have "
+                  "the side 1, "
+                  "and it is the domain if none is given")
       ->type_name("FILE")
       ->excludes(density)
       ->excludes(file);

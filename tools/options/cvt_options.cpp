@@ -5,6 +5,7 @@
 #include "options/config_option.h"
 #include "options/format_options.h"
 #include "options/numbers.h"
+#include "options/picture_density.h"
 
 #include <calotte/checkpoint.h>
 #include <calotte/cut.h>
@@ -264,6 +265,12 @@ std::set<std::string> cvt_option_names() {
   for (const CLI::Option* option : command.get_options())
     names.insert(option->get_lnames().begin(), option->get_lnames().end());
   return names;
+}
+
+void set_domain_of_picture(CvtRequest& request) {
+  const std::string& raster = request.density->widths.raster;
+  if (is_picture(raster) && !planar(request) && request.part.region.empty())
+    request.domain->rectangle = rectangle_of_picture(raster);
 }
 
 } // namespace calotte::tools

@@ -56,6 +56,10 @@ struct CvtRequest {
 /// True for a run in the plane.
 inline bool planar(const CvtRequest& request) { return request.domain->given(); }
 
+/// The rectangle of a picture is the domain, where neither a domain nor a region is given.
+/// \throws Error as rectangle_of_picture().
+void set_domain_of_picture(CvtRequest& request);
+
 /// The options of the mesh file, without density and history.
 /// \throws Error as options_of(FormatWords) does.
 WriteOptions write_options(const CvtRequest& request);

@@ -3,6 +3,7 @@
 
 #include "help/help.h"
 #include "options/numbers.h"
+#include "options/picture_density.h"
 #include "options/warning.h"
 #include "text/text.h"
 
@@ -238,6 +239,13 @@ Resolution resolution_of(const DensityWords& words, const Surface& surface) {
     return bumps_of(words, planar);
   if (words.widths.in_km())
     return read_widths(words.widths, surface);
+  const bool picture = is_picture(words.widths.raster);
+  if (picture && !planar)
+    refuse_path(words.widths.raster,
+                "a picture is a density of the plane, not of the sphere; leave "
+                "--region out, or give NetCDF density(lat, lon)");
+  if (picture)
+    return interpolated_density(read_picture(words.widths.raster));
   const Raster density = read_raster( // beyond one of a plane its nearest value holds
       words.widths.raster,
       {.quantity = RasterQuantity::density, .surface = planar ? Surface::plane() : surface});

@@ -235,12 +235,21 @@ void refuse_input(const std::string& path, int error) {
   fail_read(path, std::generic_category().message(error) + "; check its name and its permissions");
 }
 
-std::ifstream open_input(const std::string& path) {
+namespace {
+
+std::ifstream open_any(const std::string& path) {
   require_no_folder(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)
     refuse_input(path, errno);
+  return in;
+}
+
+} // namespace
+
+std::ifstream open_input(const std::string& path) {
+  std::ifstream in = open_any(path);
   refuse_foreign(path);
   return in;
 }
@@ -293,7 +302,7 @@ std::string read_all(std::istream& in, const std::string& name, StartCheck check
 } // namespace io_detail
 
 std::string read_file(const std::string& path) {
-  std::ifstream in = io_detail::open_input(path);
+  std::ifstream in = io_detail::open_any(path);
   return io_detail::read_all(in, path);
 }
 

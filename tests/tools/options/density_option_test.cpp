@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/density_option.h"
+#include "options/picture_density.h"
 #include "options/region_option.h"
 #include "support/errors.h"
 #include "support/text.h"
@@ -9,9 +10,11 @@
 #include <CLI/App.hpp>
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
+#include <png.h>
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -268,6 +271,62 @@ TEST_CASE("options of widths that do not go together are refused") {
   check_usage({"--transition", "100"});
   for (const std::string width : {"0", "-1", "nan", "inf", "1m", ""})
     check_usage({"--cell-width", "a.geojson", "--outside-width", width});
+}
+
+namespace {
+
+/// A picture of width 3, of pixels red, green, blue, alpha, row by row from the top.
+void write_png(const std::string& path, const std::vector<std::uint8_t>& bytes,
+               unsigned width = 3) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.format = PNG_FORMAT_RGBA;
+  image.width = width;
+  image.height = static_cast<unsigned>(bytes.size() / 4) / width;
+  REQUIRE(png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr) != 0);
+}
+
+} // namespace
+
+TEST_CASE("a picture is a density of the plane: its darkness squared, y upwards, white not 0") {
+  const TextFile file(".PNG", "");
+  const std::string& path = file.path();
+  write_png(path,
+            {0,   0, 0, 255, 255, 255, 255, 255, 0,   0,   0,   0, // black, white, transparent
+             255, 0, 0, 255, 51,  51,  51,  255, 255, 255, 255, 255});
+  CHECK(is_picture(path));
+  CHECK(rectangle_of_picture(path) == "0,0,3,2");
+  const Raster raster = read_picture(path);
+  CHECK(raster.of_plane);
+  CHECK(raster.x == Eigen::Vector3d(0.5, 1.5, 2.5));
+  CHECK(raster.y == Eigen::Vector2d(0.5, 1.5));
+  const double white = 1 / 255.0 / 255.0;
+  CHECK(raster.values(0, 1) == 1);
+  CHECK(raster.values(1, 1) == doctest::Approx(white));
+  CHECK(raster.values(2, 1) == doctest::Approx(white));
+  CHECK(raster.values(1, 0) == doctest::Approx(0.64));
+  CHECK(std::abs(std::sqrt(raster.values(0, 0)) - 0.5) < 0.01); // the luminance of red is 0.2126
+  const Points3 black = Eigen::Vector3d(0.2, 1.9, 0);
+  const auto options = parsed({"--density-raster", path});
+  CHECK(evaluate(density_of(options, Surface::plane()), black, Surface::plane())[0] == 1);
+  CHECK(message_of(options) ==
+        path + ": a picture is a density of the plane, not of the sphere; leave "
+               "--region out, or give NetCDF density(lat, lon)");
+}
+
+TEST_CASE("a picture without dark parts, too small or damaged is refused") {
+  const TextFile file(".png", "no picture");
+  const auto refused = [&] { return test::message_of([&] { read_picture(file.path()); }); };
+  CHECK(test::has(refused(), ": it is no PNG, or is damaged"));
+  write_png(file.path(), std::vector<std::uint8_t>(24, 255));
+  CHECK(test::has(refused(), ": the picture is white everywhere"));
+  std::vector<std::uint8_t> bytes(16, 0);
+  write_png(file.path(), bytes, 4);
+  CHECK(test::has(refused(),
+                  ": the picture has 4 x 1 pixels; give one of 2 x 2 to 100000000 pixels"));
+  write_png(file.path(), std::vector<std::uint8_t>(40000, 7), 100);
+  std::filesystem::resize_file(file.path(), std::filesystem::file_size(file.path()) - 20);
+  CHECK(test::has(refused(), ": it is no PNG, or is damaged"));
 }
 
 /// The message of a rejection of a word of --region.
