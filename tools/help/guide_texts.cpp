@@ -184,6 +184,8 @@ constexpr const char* plane =
   calotte cvt --domain lake.geojson --cells 4000 -o lake.vtp
   calotte cvt --hexagons 16,50,10000 --walls y -o channel.nc
   calotte delaunay points.txt --plane -o mesh.vtp
+  calotte cvt --density-raster face.png --cells 5000 --stop tolerance --tolerance 0.01 -o face.vtp
+  calotte draw face.vtp --what points -o face.svg
 )";
 
 constexpr const char* pictures = R"(Pictures of grids, as files or as a page for a browser.
@@ -355,8 +357,9 @@ const std::vector<Guide>& guides() {
        "global",
        examples, "first-grid.md"},
       {"plane planar periodic rectangle cartesian hexagon hex flat domain", plane, "plane.md"},
-      {"picture plot figure image html png paraview visualise visualize visualisation browser",
-       pictures, "first-grid.md browser.md"},
+      {"picture plot figure image html png paraview visualise visualize visualisation browser "
+       "stippling stipple dots",
+       pictures, "first-grid.md browser.md stippling.md"},
       {"quality measure check-mesh obtuse angle valid verify", quality,
        "measures.md first-grid.md"},
       {"partitions metis graph decomposition graph.info gpmetis process", parts, "models.md"},
