@@ -184,14 +184,14 @@ constexpr const char* plane =
   calotte cvt --domain lake.geojson --cells 4000 -o lake.vtp
   calotte cvt --hexagons 16,50,10000 --walls y -o channel.nc
   calotte delaunay points.txt --plane -o mesh.vtp
-  calotte cvt --density-raster face.png --cells 5000 --stop tolerance --tolerance 0.01 -o face.vtp
-  calotte draw face.vtp --what points -o face.svg
 )";
 
 constexpr const char* pictures = R"(Pictures of grids, as files or as a page for a browser.
 
   calotte draw earth.nc -o earth.png --what cells --view 285,38 --colour spacing
   calotte view earth.nc --open
+  calotte cvt --density-raster face.png --cells 5000 --stop tolerance --tolerance 0.01 -o face.vtp
+  calotte draw face.vtp --what points -o face.svg
   calotte plan --cell-width rules.toml -o plan.png
 
 ParaView reads .vtu and .vtp: calotte convert earth.nc earth.vtu

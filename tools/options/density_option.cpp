@@ -241,9 +241,8 @@ Resolution resolution_of(const DensityWords& words, const Surface& surface) {
     return read_widths(words.widths, surface);
   const bool picture = is_picture(words.widths.raster);
   if (picture && !planar)
-    refuse_path(words.widths.raster,
-                "a picture is a density of the plane, not of the sphere; leave "
-                "--region out, or give NetCDF density(lat, lon)");
+    refuse_path(words.widths.raster, "a picture is a density of the plane, not of the sphere; give "
+                                     "NetCDF density(lat, lon)");
   if (picture)
     return interpolated_density(read_picture(words.widths.raster));
   const Raster density = read_raster( // beyond one of a plane its nearest value holds

@@ -309,9 +309,8 @@ TEST_CASE("a picture is a density of the plane: its darkness squared, y upwards,
   const Points3 black = Eigen::Vector3d(0.2, 1.9, 0);
   const auto options = parsed({"--density-raster", path});
   CHECK(evaluate(density_of(options, Surface::plane()), black, Surface::plane())[0] == 1);
-  CHECK(message_of(options) ==
-        path + ": a picture is a density of the plane, not of the sphere; leave "
-               "--region out, or give NetCDF density(lat, lon)");
+  CHECK(message_of(options) == path + ": a picture is a density of the plane, not of the sphere; "
+                                      "give NetCDF density(lat, lon)");
 }
 
 TEST_CASE("a picture without dark parts, too small or damaged is refused") {
