@@ -991,7 +991,7 @@ TEST_CASE("what can fail at the end is tried before the run") {
   check_refusals(bench, "cvt", R"(
 --cells 100000 -o mesh.nc | 3 | cannot write mesh.graph.info: it is a folder
 --cells 100000 -o no/mesh.nc | 3 | the folder no does not exist
---cells 1000000000 -o big.nc | 3 | cannot write big.nc: it will have about 1.1e+03 GB, but the disk has
+--cells 1000000000 -o big.nc | 3 | cannot write big.nc: it will have about 1.1 TB, but the disk has
 )");
 }
 

@@ -202,6 +202,20 @@ TEST_CASE("times for people have two digits, or are whole") {
     CHECK(duration(seconds) == words);
 }
 
+TEST_CASE("sizes of data for people have three digits") {
+  for (const auto& [bytes, words] :
+       std::vector<std::pair<double, std::string>>{{0, "0 kB"},
+                                                   {41'237, "41.2 kB"},
+                                                   {999'499, "999 kB"},
+                                                   {999'501, "1 MB"},
+                                                   {325e6, "325 MB"},
+                                                   {999.9e6, "1 GB"},
+                                                   {2.873e9, "2.87 GB"},
+                                                   {4e12, "4 TB"},
+                                                   {5e15, "5e+03 TB"}})
+    CHECK(data_size(bytes) == words);
+}
+
 TEST_CASE("progress names the level, the norm and the prediction") {
   Standing state = decaying(101, 0.9);
   state.bisections_left = 2;

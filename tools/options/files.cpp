@@ -86,11 +86,10 @@ void require_space(const std::string& path, double bytes) {
   std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code unknown;
   const auto space = std::filesystem::space(folder.empty() ? "." : folder, unknown);
-  const auto gigabytes = [](double size) { return formatted("%.3g GB", size / 1e9); };
   if (!unknown && static_cast<double>(space.available) < bytes)
     fail_write(path, message("it will have about {}, but the disk has {} left; make room or write "
                              "elsewhere",
-                             gigabytes(bytes), gigabytes(static_cast<double>(space.available))));
+                             data_size(bytes), data_size(static_cast<double>(space.available))));
 }
 
 std::string checksum_of(const std::string& path) {

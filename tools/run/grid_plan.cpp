@@ -45,11 +45,6 @@ std::string interval(double low, double high) {
   return message("{} to {}", formatted("%.4g", low), formatted("%.4g", high));
 }
 
-std::string bytes(double count) {
-  constexpr double mega = 1e6, giga = 1e9;
-  return count < giga ? formatted("%.3g MB", count / mega) : formatted("%.3g GB", count / giga);
-}
-
 std::string percent(double share) { return formatted("%5.1f%%", 100 * share); }
 
 std::string gradient_words(const GridPlan& plan) {
@@ -68,7 +63,7 @@ std::string gradient_words(const GridPlan& plan) {
 
 /// Whether the run fits into the memory of this machine.
 std::string memory_words(const GridPlan& plan) {
-  const std::string need = bytes(plan.costs.memory), have = bytes(plan.memory);
+  const std::string need = data_size(plan.costs.memory), have = data_size(plan.memory);
   if (plan.costs.memory < 0.7 * plan.memory)
     return message("{}; it fits into the {} of this machine", need, have);
   if (plan.costs.memory < plan.memory)
@@ -169,13 +164,13 @@ std::string estimate_rows(const GridPlan& plan) {
       message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread")) +
       plan_row("  time of cvt", duration(plan.costs.seconds)) +
       plan_row("  memory", memory_words(plan)) +
-      plan_row("  MPAS file (.nc)", bytes(plan.costs.mpas_file)) +
-      plan_row("  triangles (.vtp)", bytes(plan.costs.vtp_file));
+      plan_row("  MPAS file (.nc)", data_size(plan.costs.mpas_file)) +
+      plan_row("  triangles (.vtp)", data_size(plan.costs.vtp_file));
   if (const std::optional<double> step = step_of(plan))
     lines += plan_row(
         "MPAS-Atmosphere",
         message("steps up to {} s; {} of memory with {} levels", formatted("%.3g", *step),
-                bytes(plan.of_model.of(static_cast<double>(plan.cells))), plan.of_model.levels));
+                data_size(plan.of_model.of(static_cast<double>(plan.cells))), plan.of_model.levels));
   return lines;
 }
 

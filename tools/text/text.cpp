@@ -35,6 +35,17 @@ std::string duration(double seconds) {
                               : number(seconds / hour) + " h";
 }
 
+std::string data_size(double bytes) {
+  const char* unit = "kB";
+  double size = bytes / 1000;
+  for (const char* const larger : {"MB", "GB", "TB"})
+    if (size >= 999.5) { // which three digits would round to 1000
+      size /= 1000;
+      unit = larger;
+    }
+  return message("{} {}", formatted("%.3g", size), unit);
+}
+
 std::string row(std::string name, std::size_t column, const std::string& value) {
   name.resize(std::max(name.size(), column), ' ');
   return message("{}{}\n", name, value);

@@ -33,6 +33,9 @@ std::string spaced(std::int64_t count);
 /// "0.41 s", "110 s", "2.5 min", "26 h": a time for people, of two digits or whole.
 std::string duration(double seconds);
 
+/// "41.2 kB", "325 MB", "2.87 GB": the size of data, of three digits.
+std::string data_size(double bytes);
+
 /// A line of a table: the name, blanks up to a column, and the value.
 std::string row(std::string name, std::size_t column, const std::string& value);
 
