@@ -4,6 +4,7 @@
 #include "help/unknown_word.h"
 #include "options/warning.h"
 #include "run/exit_code.h"
+#include "run/interruption.h"
 #include "text/text.h"
 
 #include <calotte/error.h>
@@ -237,6 +238,7 @@ int main(int argc, char** argv) try {
   keep_freed_memory();
   keep_reserve();
   let_gmp_throw();
+  announce_end();
   terminate_otherwise = std::set_terminate(calotte::tools::terminate);
   std::ios::sync_with_stdio(false);
   CLI::App app(

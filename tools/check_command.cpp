@@ -37,14 +37,14 @@ struct Findings {
 
 /// A mesh whose edges are all Delaunay passes: a foreign mesh may have the other diagonals of
 /// cocircular sites, or a boundary that is not convex.
-Findings findings_of(const Mesh& mesh) {
+Findings findings_of(const Mesh& mesh, const ProgressCallback& progress) {
   Findings found;
-  found.check = check(mesh);
+  found.check = check(mesh, progress);
   found.delaunay = found.check.passed();
   if (found.delaunay)
     return found;
   const std::string strict = found.check.failure;
-  found.check = check_surface(mesh);
+  found.check = check_surface(mesh, progress);
   found.failure = found.check.failure;
   if (!found.failure.empty())
     return found;
@@ -132,13 +132,13 @@ void run_check(const MeshSource& source, const std::optional<std::string>& word)
     MeshFile file = read_mesh_file(source, FieldChoice::none);
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
-    const ModelNeeds* model = demanding_model_of(word, file);
+    const ModelNeeds* model = model_of(word);
     // Cells without triangles of their own are checked as cells; a periodic plane has triangles.
     const Mesh* plane = file.plane();
     const bool own_triangles = plane ? !file.polygons || plane->surface.period().maxCoeff() > 0
                                      : file.mesh && !(file.polygons && file.mesh->closed());
     if (own_triangles) {
-      const Findings found = findings_of(*file.mesh);
+      const Findings found = findings_of(*file.mesh, progress.bar());
       text += table(found, plane != nullptr);
       add(found.failure);
     }
@@ -152,6 +152,7 @@ void run_check(const MeshSource& source, const std::optional<std::string>& word)
       text += table(found);
       add(failure_of(found));
     }
+    progress.stage("comparing the variables of " + source.path);
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
     for (const Deviation& deviation : deviations)
       text += deviation.text + "\n";
@@ -171,9 +172,9 @@ void add_check(CLI::App& app) {
       "Proves in exact arithmetic that a mesh is the Delaunay triangulation of its points. It "
       "compares the other variables of a NetCDF file with it, too.");
   auto source = add_mesh_source(*command);
-  add_plane(*command, *source);
   auto model = std::make_shared<std::optional<std::string>>();
   add_demanding_model(*command, *model);
+  add_plane(*command, *source, {"--for"});
   set_help(*command,
            {.common = {},
             .examples = {"calotte check mesh.nc", "calotte check mesh.nc --for mpas-atmosphere",

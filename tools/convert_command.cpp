@@ -170,8 +170,8 @@ void run(const ConvertRequest& request) {
     progress.stage("reading " + request.source->path);
     MeshFile file = read_input(request);
     const EarReport ears = remove_ears(request, file);
-    progress.stage("writing " + request.output);
-    const WriteOptions options = write_options(request, density, file);
+    WriteOptions options = write_options(request, density, file);
+    options.progress = progress.writing(request.output);
     const WrittenFields written = write(request.output, file, options);
     words = changes_of(*request.source, file) + describe_ears(request, ears) +
             remarks(request, file, options, written) +

@@ -7,6 +7,7 @@
 #include "options/global_option.h"
 #include "options/model_option.h"
 #include "options/numbers.h"
+#include "run/interruption.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -217,6 +218,8 @@ void run(const CullRequest& request) {
     options = options_of(request);
     const std::optional<Raster> heights = heights_of(request);
     progress.stage("culling " + request.source);
+    announce_files();
+    options.progress = progress.bar();
     report = cull(request.source, request.output, options);
     progress.stage("the sea floor");
     if (heights)

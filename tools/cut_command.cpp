@@ -6,6 +6,7 @@
 #include "options/model_option.h"
 #include "options/region_option.h"
 #include "options/sphere_radius_option.h"
+#include "run/interruption.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -89,7 +90,10 @@ void run(const CutRequest& request) {
     progress.stage("reading " + request.region);
     const Surface region = region_of(request.region, request.inside);
     progress.stage("cutting " + request.source);
-    report = cut(request.source, request.output, region, options_of(request));
+    announce_files();
+    CutOptions options = options_of(request);
+    options.progress = progress.bar();
+    report = cut(request.source, request.output, region, options);
   }
   std::cout << describe_cut(request, report);
 }

@@ -46,6 +46,14 @@ namespace {
 
 // ---- The run
 
+/// A run before its first descent.
+struct Run {
+  CvtInput input;
+  Schedule schedule;
+  std::string configuration;
+  std::optional<CvtState> state; ///< from which it resumes
+};
+
 /// Where the state of an interrupted run goes.
 std::string checkpoint_of(const CvtRequest& request) {
   return request.checkpoint.empty() ? request.mesh + ".checkpoint" : request.checkpoint;
@@ -109,36 +117,51 @@ bool keep(const CvtState& state, Files& files, Progress& progress, const std::st
   return true;
 }
 
+/// "325 MB to a.nc": what the mesh file of so many cells will be.
+std::string file_words(const CvtRequest& request, const Run& run, std::int64_t cells) {
+  const Format format = format_of(request.mesh, write_options(request).format);
+  const double bytes = file_bytes(format, cells, run.schedule.density.uniform());
+  const Recipe& asked = run.input.recipe;
+  const bool part = asked.limited_area || asked.walls.x || asked.walls.y; // of the run's cells
+  return bytes > 0 ? message("{}{} to {}", part ? "at most " : "", data_size(bytes), request.mesh)
+                   : request.mesh;
+}
+
+constexpr const char* at_once = "Ctrl-C again, after a second, ends it at once without a mesh";
+
+/// The answer to a signal while a run iterates with so many cells.
+std::string answer_of_run(const CvtRequest& request, const Run& run, std::int64_t cells,
+                          std::string_view iteration) {
+  return message("the run stops after {} iteration, then writes {} and its state to {}; {}",
+                 iteration, file_words(request, run, cells), checkpoint_of(request), at_once);
+}
+
 /// Shows progress, keeps states and checkpoints, and ends the run after a signal.
-ProgressReply after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
-                              KeptStates& states, Progress& progress, CvtOutcome& outcome) {
+ProgressReply after_iteration(const CvtProgress& now, const CvtRequest& request, const Run& run,
+                              Keeper& keeper, KeptStates& states, Progress& progress,
+                              Interruption& interruption, CvtOutcome& outcome) {
   const std::string continues = " (the run continues)";
+  const Schedule& schedule = run.schedule;
   progress.stage(describe(now, schedule), std::to_string(now.bisections_left));
   if (states.due(now.report))
     keep(now.state, states, progress, continues);
   outcome.signal = Interruption::signal();
-  if (outcome.signal != 0)
+  if (outcome.signal != 0) {
+    progress.stage("writing " + checkpoint_of(request));
     outcome.kept = keep(now.state, keeper, progress, "");
-  else if (keeper.due(now.report)) // a full disk may have space again by the next time
+  } else if (keeper.due(now.report)) // a full disk may have space again by the next time
     keep(now.state, keeper, progress, continues);
+  interruption.set_answer(
+      answer_of_run(request, run, now.report.iterations.back().cells, "the current"));
   return outcome.signal != 0 ? ProgressReply::stop : ProgressReply::proceed;
 }
 
-/// A run before its first descent.
-struct Run {
-  CvtInput input;
-  Schedule schedule;
-  std::string configuration;
-  std::optional<CvtState> state; ///< from which it resumes
-};
-
 Run prepare(const CvtRequest& request, Progress& progress) {
-  progress.stage("reading the density");
-  Run run{read_input(request), {}, {}, {}};
+  Run run{read_input(request, progress), {}, {}, {}};
   const Format format = format_of(request.mesh, write_options(request).format);
   if (const Surface& surface = run.input.recipe.surface; !surface.is_sphere())
     require_planar_format(request.mesh, surface, format);
-  run.schedule = plan_of(run.input);
+  run.schedule = plan_of(run.input, progress);
   require_used(request, run.schedule);
   run.input.recipe.start.points.resize(3, 0); // the schedule has them, and the density
   run.input.recipe.resolution = {};
@@ -169,15 +192,16 @@ std::string worst_position(const CvtOutcome& outcome) {
 }
 
 /// \param run its state is moved out.
-CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
+CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress,
+                      Interruption& interruption) {
   CvtOutcome outcome;
   outcome.before = run.state ? run.state->report().iterations.size() : 0;
   Keeper keeper(request, run.configuration, outcome.before);
   KeptStates states(request, run.schedule.recipe.surface, outcome.before);
   RunOptions options{options_of(*request.delaunay).decomposition,
                      [&](const calotte::Progress& now) {
-                       return after_iteration(*now.run, run.schedule, keeper, states, progress,
-                                              outcome);
+                       return after_iteration(*now.run, request, run, keeper, states, progress,
+                                              interruption, outcome);
                      },
                      std::move(run.state)};
   progress.stage("making the start");
@@ -273,11 +297,13 @@ GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
 
 /// Compares the grid with the demands of its model, before the file is written where that has the
 /// whole mesh, and else as the file has it.
-void compare_with_demands(const CvtRequest& request, CvtOutcome& outcome, bool written) {
+void compare_with_demands(const CvtRequest& request, bool written, CvtOutcome& outcome,
+                          Progress& progress) {
   const ModelNeeds* model = model_of(request.format->model);
   const bool part = request.part.limited_area;
   if (model == nullptr || model->demands.least_sides == 0 || planar(request) || part != written)
     return;
+  progress.stage("comparing with the demands of " + model->name);
   outcome.gates = part ? gates_of(*model, request.mesh,
                                   read_mesh_file(request.mesh, nullptr, FieldChoice::none))
                        : gates_of(*model, outcome.mesh);
@@ -285,18 +311,25 @@ void compare_with_demands(const CvtRequest& request, CvtOutcome& outcome, bool w
 
 void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome,
                   Progress& progress) {
-  compare_with_demands(request, outcome, false);
-  progress.stage("writing " + request.mesh);
+  compare_with_demands(request, false, outcome, progress);
   const Recipe& made = run.schedule.recipe;
   WriteOptions options = write_options(request);
   options.history = history_of(request, made.stop, run.configuration, outcome.report);
+  options.progress = progress.writing(request.mesh);
   outcome.grid =
       describe_cells(run.input.recipe, write_file_of(request, run, outcome.mesh, options));
-  compare_with_demands(request, outcome, true);
+  compare_with_demands(request, true, outcome, progress);
   if (!request.report.empty())
     write_file(request.report,
                to_json(request, run.schedule, outcome.report, outcome.cells, outcome.area,
                        outcome.threads, outcome.states, outcome.gates));
+}
+
+/// The cells of the next iteration: of the start, or of the state.
+std::int64_t cells_before(const Run& run) {
+  if (run.state && !run.state->report().iterations.empty())
+    return run.state->report().iterations.back().cells;
+  return run.schedule.actions.front().cells;
 }
 
 /// From here on a signal ends the run after the current iteration, with its output complete.
@@ -304,8 +337,10 @@ void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome
 CvtOutcome tessellate_and_write(const CvtRequest& request, Schedule& schedule) {
   Progress progress;
   Run run = prepare(request, progress);
-  const Interruption interruption;
-  CvtOutcome outcome = tessellate(request, run, progress);
+  Interruption interruption(answer_of_run(request, run, cells_before(run), "the next"));
+  CvtOutcome outcome = tessellate(request, run, progress, interruption);
+  interruption.set_answer(message("the run has ended and writes {}; {}",
+                                  file_words(request, run, outcome.cells), at_once));
   write_result(request, run, outcome, progress);
   schedule = std::move(run.schedule);
   return outcome;

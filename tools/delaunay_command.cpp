@@ -155,7 +155,7 @@ std::string warning_of(const std::string& points, bool closed) {
 }
 
 /// \returns the lines to print.
-std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptions& options) {
+std::string triangulate_file(const DelaunayRequest& request, DelaunayOptions options) {
   Progress progress;
   PointFile input;
   progress.stage("reading points");
@@ -164,9 +164,10 @@ std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptio
   const std::int64_t points = input.points.cols();
   const Surface surface = surface_of(request, input.surface);
   progress.stage(message("triangulating {} points", points));
+  options.progress = progress.bar();
   const Triangulation result = triangulate(std::move(input), surface, options);
-  progress.stage("writing " + request.mesh);
   WriteOptions output = write_options(request, points);
+  output.progress = progress.writing(request.mesh);
   const double written = seconds_of([&] {
     if (is_mpas(output.format) && result.mesh.closed())
       output.site_density = spacing_density(voronoi(result.mesh));

@@ -14,6 +14,7 @@
 #include "options/sphere_radius_option.h"
 #include "options/units_option.h"
 #include "run/operator_measures.h"
+#include "run/progress.h"
 #include "run/spacing_survey.h"
 #include "text/text.h"
 
@@ -30,15 +31,18 @@ namespace {
 
 constexpr const char* limited_area_mask_name = "bdyMaskCell";
 
-void draw_reports(const DrawArguments& arguments) {
+// Each function that draws returns the lines to print.
+
+std::string draw_reports(const DrawArguments& arguments, Progress& progress) {
   std::vector<History> histories;
   for (const std::string& report : arguments.reports) {
     require_distinct(arguments.output, report);
     histories.push_back(read_history(report));
   }
+  progress.writing(arguments.output);
   draw_history(arguments.output, histories, arguments.options.look.size);
-  std::cout << message("{}: convergence of {}\n", arguments.output,
-                       counted(std::ssize(histories), "run"));
+  return message("{}: convergence of {}\n", arguments.output,
+                 counted(std::ssize(histories), "run"));
 }
 
 /// Throws for options of a field without one.
@@ -172,7 +176,7 @@ DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
 }
 
 /// Cells that are not Voronoi cells have no triangles and no spacing law.
-void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
+std::string draw_cells(const DrawArguments& arguments, const MeshFile& file, Progress& progress) {
   const Polygons& cells = *file.polygons;
   const std::string not_voronoi = message("{}: the cells are not Voronoi cells ({})",
                                           arguments.source->mesh_path(), file.not_voronoi.text());
@@ -188,12 +192,13 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
     options.field = field_of(options, *arguments.source, file, cells.size());
     name_indices(*arguments.source, options);
   }
+  progress.writing(arguments.output);
   draw(arguments.output, cells, options);
-  std::cout << changes_of(*arguments.source, file)
-            << message("{}: picture of {} cells\n", arguments.output, cells.size());
+  return changes_of(*arguments.source, file) +
+         message("{}: picture of {} cells\n", arguments.output, cells.size());
 }
 
-void draw_mesh(const DrawArguments& arguments) {
+std::string draw_mesh(const DrawArguments& arguments, Progress& progress) {
   const WidthWords& widths = arguments.density->widths;
   require_outputs({{"picture", arguments.output}},
                   {arguments.source->path, arguments.source->points, arguments.source->mesh,
@@ -201,14 +206,14 @@ void draw_mesh(const DrawArguments& arguments) {
   require_density(arguments);
   require_field(arguments);
   std::optional<Surface> domain = surface_of(*arguments.domain);
+  progress.stage("reading " + arguments.source->mesh_path());
   MeshFile file = read_mesh_alone(*arguments.source, FieldChoice::scalars);
   const bool plane = file.plane() != nullptr;
   DrawOptions options = options_for(arguments, file);
   options.density =
       density_of(*arguments.density, plane ? domain.value_or(Surface::plane()) : Surface());
   if (!plane && file.other_cells()) {
-    draw_cells(arguments, file);
-    return;
+    return draw_cells(arguments, file, progress);
   }
   if (plane && !domain) {
     domain = filled_surface(file);
@@ -220,21 +225,23 @@ void draw_mesh(const DrawArguments& arguments) {
   if (file.polygons && file.polygons->size() == mesh.points.cols()) {
     options.cells = &*file.polygons;
   }
+  progress.stage("measuring " + arguments.source->path);
   if (!arguments.error_of.empty()) {
     set_errors(arguments.error_of, errors_of(mesh), options);
   } else if (shows_field(options)) {
     options.field = read_field(*arguments.source, options.field_name, mesh);
     name_indices(*arguments.source, options);
   }
+  progress.writing(arguments.output);
   if (arguments.spacing_law) {
     draw_spacing_law(arguments.output, mesh, options.density, options.look.size);
   } else {
     draw(arguments.output, mesh, options);
   }
-  std::cout << (plane ? "" : changes_of(*arguments.source, file))
-            << message("{}: {} of {} sites, {} triangles\n", arguments.output,
-                       arguments.spacing_law ? "spacing law" : "picture", mesh.points.cols(),
-                       mesh.triangles.cols());
+  return (plane ? "" : changes_of(*arguments.source, file)) +
+         message("{}: {} of {} sites, {} triangles\n", arguments.output,
+                 arguments.spacing_law ? "spacing law" : "picture", mesh.points.cols(),
+                 mesh.triangles.cols());
 }
 
 std::string title_of(const DensityWords& words) {
@@ -271,7 +278,7 @@ SphereField field_of(const DrawArguments& arguments) {
   return {[density](const Points3& x) { return evaluate(density, x); }, title, "density"};
 }
 
-void draw_density(const DrawArguments& arguments) {
+std::string draw_density(const DrawArguments& arguments, Progress& progress) {
   const Colouring colouring = arguments.options.colouring;
   if (arguments.what->count() > 0) {
     throw CLI::RequiredError("--what: MESH");
@@ -291,23 +298,32 @@ void draw_density(const DrawArguments& arguments) {
   const std::optional<double> radius = widths.in_km() ? std::optional(widths.radius) : std::nullopt;
   look.coastlines = shows_coastlines(arguments.coastlines, radius);
   set_region(arguments, radius, look);
-  draw(arguments.output, field_of(arguments), look);
-  std::cout << arguments.output << ": picture of a density\n";
+  progress.stage(widths.in_km() ? "reading the widths" : "reading the density");
+  const SphereField field = field_of(arguments);
+  progress.writing(arguments.output);
+  draw(arguments.output, field, look);
+  return message("{}: picture of a density\n", arguments.output);
+}
+
+std::string draw_picture(const DrawArguments& arguments) {
+  Progress progress;
+  if (!arguments.reports.empty()) {
+    return draw_reports(arguments, progress);
+  }
+  if (!arguments.source->path.empty()) {
+    return draw_mesh(arguments, progress);
+  }
+  if (arguments.has_density() && !arguments.spacing_law) {
+    return draw_density(arguments, progress);
+  }
+  throw CLI::RequiredError("MESH");
 }
 
 void run(const DrawArguments& arguments) {
   require_sphere_radius(arguments.sphere_radius.value_or(1));
   picture_format(arguments.output); // fails before any input is read
   require_folder(arguments.output);
-  if (!arguments.reports.empty()) {
-    draw_reports(arguments);
-  } else if (!arguments.source->path.empty()) {
-    draw_mesh(arguments);
-  } else if (arguments.has_density() && !arguments.spacing_law) {
-    draw_density(arguments);
-  } else {
-    throw CLI::RequiredError("MESH");
-  }
+  std::cout << draw_picture(arguments);
 }
 
 } // namespace

@@ -286,16 +286,18 @@ std::string read_and_measure(const InfoRequest& request) {
     measured.remarks.push_back(message("the density {} is not used: closed meshes and domains of a "
                                        "plane are compared with one",
                                        given));
-  if (const ModelNeeds* model = demanding_model_of(request.model, file)) {
+  if (const ModelNeeds* model = model_of(request.model)) {
     if (file.not_voronoi.passed())
       measured.gates = gates_of(*model, request.source->path, file);
     else
       measured.remarks.push_back(
           message("the demands of {} are on Voronoi cells, so they are not compared", model->name));
   }
-  if (!request.report.empty())
+  if (!request.report.empty()) {
+    progress.writing(request.report);
     write_file(request.report,
                by_corners ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));
+  }
   return remarks_of(request, measured) +
          (by_corners ? table(*file.polygons, file.mesh, measured.unit) : table(measured));
 }

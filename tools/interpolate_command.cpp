@@ -200,16 +200,19 @@ void run(const InterpolateRequest& request) {
       lines += decide_categories(request, field);
     progress.stage("reading " + request.target);
     const FieldGrid target = raster_or_mesh(request.target, FieldChoice::none);
-    progress.stage("weights");
+    progress.stage(message("weights from {} to {}", request.source, request.target));
     const GridWeights weights = weights_of(request, source, target);
     for (MeshField& field : fields)
       field = interpolate(weights, field, request.min_cover);
-    progress.stage("writing");
-    if (!request.weights.empty())
+    if (!request.weights.empty()) {
+      progress.writing(request.weights);
       write_weights(request.weights, weights, source, target, request.method, request.format,
                     history_of(request));
-    if (!request.output.empty())
+    }
+    if (!request.output.empty()) {
+      progress.writing(request.output);
       write_fields(request.output, target, fields, history_of(request), source.name);
+    }
     lines += describe_weights(request, source, weights, fields);
   }
   std::cout << lines;

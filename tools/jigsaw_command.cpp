@@ -136,9 +136,8 @@ void run_jigsaw(const std::string& path) {
     for (const std::string& remark : job.remarks)
       std::cout << message("calotte: {}\n", remark);
   Cvt grid = make_mesh(job, threads, progress);
-  progress.stage("writing " + output);
   grid.mesh.points *= job.radius;
-  write(output, grid.mesh, {.format = Format::msh});
+  write(output, grid.mesh, {.format = Format::msh, .progress = progress.writing(output)});
   std::cout << message("{}: {} points, {} triangles, {}{} s\n", output, grid.mesh.points.cols(),
                        grid.mesh.triangles.cols(), grid.report.well_centred ? "well-centred, " : "",
                        formatted("%.2f", grid.report.seconds));

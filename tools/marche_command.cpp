@@ -4,6 +4,7 @@
 #include "io/command.h"
 #include "options/delaunay_options.h"
 #include "options/jig_file.h"
+#include "run/interruption.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -25,6 +26,7 @@ void run_marche(const std::string& path) {
   const std::optional<int> threads = jig.threads();
   Progress progress;
   progress.stage("limiting the gradient of " + widths);
+  announce_files();
   const double seconds =
       seconds_of([&] { with_threads(threads, [&] { limit_jigsaw_values(widths, radius); }); });
   std::cout << message("{}: gradient limited, {} s\n", widths, formatted("%.2f", seconds));

@@ -8,6 +8,7 @@
 #include "options/format_options.h"
 #include "options/part_counts.h"
 #include "run/exit_code.h"
+#include "run/interruption.h"
 #include "run/memory_use.h"
 #include "run/progress.h"
 #include "text/text.h"
@@ -215,13 +216,14 @@ PartitionOutcome partition_file(const PartitionRequest& request,
   require_files(request, counts);
   PartitionOptions options;
   options.weights = weights_of(request, file, outcome.cells);
-  options.progress = [&](const calotte::Progress& so_far) {
+  options.progress = [&, bar = progress.bar()](const calotte::Progress& so_far) {
     const auto done = static_cast<std::int64_t>(so_far.fraction * std::ssize(counts) + 0.5);
     progress.stage(message("partitioning {}, {} of {}", request.mesh, done, counts.size()),
                    std::to_string(std::floor(10 * so_far.fraction)));
-    return ProgressReply::proceed;
+    return bar ? bar(so_far) : ProgressReply::proceed;
   };
   file = {};
+  announce_files();
   with_threads(request.threads, [&] {
     outcome.threads = tbb::this_task_arena::max_concurrency();
     outcome.components = component_sizes(neighbours);

@@ -114,26 +114,30 @@ Raster raster_of(const Recipe& recipe) {
 /// Writes the picture and the report, too.
 GridPlan make_plan(const PlanRequest& request) {
   Progress progress;
-  progress.stage("reading the density");
   GridPlan plan;
   with_threads(request.run->delaunay->threads, [&] {
     CvtInput input;
     Schedule schedule;
     const double seconds = seconds_of([&] {
-      input = read_input(*request.run);
-      schedule = plan_of(input);
+      input = read_input(*request.run, progress);
+      schedule = plan_of(input, progress);
     });
     require_used(*request.run, schedule);
     plan = make_grid_plan(*request.run, input, schedule, radius_of(request));
     plan.width_seconds = schedule.widths ? seconds : 0;
-    progress.stage("drawing " + request.picture);
-    if (!request.picture.empty())
+    if (!request.picture.empty()) {
+      progress.writing(request.picture);
       draw_widths(request, schedule.density, plan, unit_for(request, plan));
-    if (!request.raster.empty())
+    }
+    if (!request.raster.empty()) {
+      progress.writing(request.raster);
       calotte::write(request.raster, raster_of(input.recipe));
+    }
   });
-  if (!request.report.empty())
+  if (!request.report.empty()) {
+    progress.writing(request.report);
     write_file(request.report, to_json(plan));
+  }
   return plan;
 }
 

@@ -5,6 +5,7 @@
 #include "options/files.h"
 #include "options/format_options.h"
 #include "options/numbers.h"
+#include "run/interruption.h"
 #include "text/text.h"
 
 #include <calotte/generators.h>
@@ -97,6 +98,7 @@ template <class Points> void put(const Points& points, const PointsRequest& requ
     write_points(std::cout, points);
     return;
   }
+  announce_files();
   write_points(request.output, points);
   std::cout << message("{}: {} points\n", request.output, points.cols());
 }

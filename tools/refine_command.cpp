@@ -262,13 +262,14 @@ void run(const RefineRequest& request) {
       });
     });
     const ChangedFile file = changed_file(base, changed, request.methods);
-    progress.stage("writing " + request.output);
+    WriteOptions options = write_options(request, base);
+    options.progress = progress.writing(request.output);
     WrittenFields written;
     std::optional<CellMapFiles> maps;
     if (!request.cell_map.empty())
       maps.emplace(cell_map_paths(request.cell_map), changed.new_of_old, changed.old_of_new);
-    const double write = seconds_of(
-        [&] { written = calotte::write(request.output, file.file, write_options(request, base)); });
+    const double write =
+        seconds_of([&] { written = calotte::write(request.output, file.file, options); });
     if (maps)
       maps->commit();
     words = changes_of(*request.source, base) +

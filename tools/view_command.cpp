@@ -164,7 +164,8 @@ ViewPage view_of_meshes(const ViewRequest& request, Progress& progress) {
   return view;
 }
 
-ViewPage view_of_plan(const ViewRequest& request) {
+ViewPage view_of_plan(const ViewRequest& request, Progress& progress) {
+  progress.stage("reading the density");
   const WidthWords& words = request.density->widths;
   const GridInput input = read_grid(*request.density, {}, request.cells);
   const Schedule schedule = plan(input.recipe);
@@ -216,8 +217,8 @@ void run(const ViewRequest& request) {
   ViewPage view;
   {
     Progress progress;
-    view = request.plan ? view_of_plan(request) : view_of_meshes(request, progress);
-    progress.stage("writing " + output);
+    view = request.plan ? view_of_plan(request, progress) : view_of_meshes(request, progress);
+    progress.writing(output);
     write_file(output, page_of(view));
   }
   std::cout << message("{}: page of {}\n", output, summary(view));

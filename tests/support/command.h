@@ -68,12 +68,15 @@ public:
     return process;
   }
 
+  /// What it has written to standard error so far.
+  std::string err() const { return contents(scratch_ / "err"); }
+
   /// Waits for its end.
   Outcome finish(pid_t process) const {
     int status = 0;
     REQUIRE(::waitpid(process, &status, 0) == process);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contents(scratch_ / "out"),
-            contents(scratch_ / "err")};
+            err()};
   }
 
   Outcome run(const std::string& arguments, const std::string& before = "") const {

@@ -9,9 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <regex>
 #include <sstream>
@@ -19,7 +21,10 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 using namespace calotte::test;
 
@@ -34,14 +39,21 @@ void wait_until(const std::function<bool()>& done) {
   REQUIRE(done());
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
 /// A key as it stands in a report.
 std::string quoted(const std::string& key) { return std::string("\"").append(key).append("\": "); }
 
 /// The lines of a report that the run determines, independent of host and time.
 std::vector<std::string> course(const std::string& report) {
   std::vector<std::string> lines;
-  std::istringstream in(report);
-  for (std::string line; std::getline(in, line);)
+  for (const std::string& line : lines_of(report))
     for (const char* key : {"cells", "rule", "l2", "linf", "gradient", "energy"})
       if (line.find(quoted(key)) != std::string::npos)
         lines.push_back(line);
@@ -69,6 +81,14 @@ void wait_for_handler(pid_t process, int signal) {
     std::this_thread::sleep_for(std::chrono::seconds(10));
   else
     wait_until([&] { return handles(process, signal); });
+}
+
+/// Starts a run with a log and waits until it iterates, so that it handles signals: before that a
+/// signal ends the command. The first line on its standard error is that of the log.
+pid_t start_iterating(const Bench& bench, const std::string& arguments) {
+  const pid_t process = bench.start(arguments, "export CALOTTE_LOG_AFTER=0;");
+  wait_until([&] { return has(bench.err(), "iteration "); });
+  return process;
 }
 
 /// Options of a run that is long enough to be interrupted many times; it saves its state after
@@ -520,11 +540,13 @@ TEST_CASE("SIGTERM and SIGINT end a run in order, and it resumes to the same bit
     const Outcome outcome = interrupt(bench, arguments, signal);
     CHECK(outcome.code == code);
     CHECK(outcome.out.empty());
-    CHECK(one_line(outcome.err));
-    CHECK(
-        outcome.err.starts_with("calotte: stopped by " + std::string(name) + " after iteration "));
-    CHECK(outcome.err.ends_with("; the mesh is written as it is; to continue: calotte cvt --resume "
-                                "run.checkpoint\n"));
+    const std::vector<std::string> lines = lines_of(outcome.err);
+    REQUIRE(lines.size() == 2);
+    CHECK(lines[0].starts_with("calotte: the run stops after the "));
+    CHECK(has(lines[0], " kB to mesh.vtp and its state to run.checkpoint; Ctrl-C again, "));
+    CHECK(lines[1].starts_with("calotte: stopped by " + std::string(name) + " after iteration "));
+    CHECK(lines[1].ends_with("; the mesh is written as it is; to continue: calotte cvt --resume "
+                             "run.checkpoint"));
     CHECK(bench.names() == std::set<std::string>{"mesh.vtp", "report.json", "run.checkpoint"});
     CHECK(bench.run("check mesh.vtp").code == 0);
     CHECK(has(bench.file("report.json"), "\"converged\": false"));
@@ -565,8 +587,7 @@ TEST_CASE("a graded run resumes to the same bits after a signal in any of its ph
   int interrupted = 0;
   for (int milliseconds = 20; milliseconds < 2000; milliseconds += milliseconds) {
     CAPTURE(milliseconds);
-    const pid_t process = bench.start(run);
-    wait_for_handler(process, SIGINT);
+    const pid_t process = start_iterating(bench, run);
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     ::kill(process, SIGINT);
     const int code = bench.finish(process).code;
@@ -616,41 +637,133 @@ TEST_CASE("a batch job has a log: a line for each level") {
 
 TEST_CASE("a run without a checkpoint keeps its state when a signal ends it") {
   const Bench bench;
-  const pid_t process = bench.start(long_run + "000 -o mesh.vtp");
-  wait_for_handler(process, SIGTERM);
+  const pid_t process = start_iterating(bench, long_run + "000 -o mesh.vtp");
   REQUIRE(::kill(process, SIGTERM) == 0);
   const Outcome outcome = bench.finish(process);
   CHECK(outcome.code == 143);
-  CHECK(one_line(outcome.err));
+  CHECK(lines_of(outcome.err).size() == 3);
   CHECK(has(outcome.err, "; to continue: calotte cvt --resume mesh.vtp.checkpoint\n"));
   CHECK(bench.names() == std::set<std::string>{"mesh.vtp", "mesh.vtp.checkpoint"});
 }
 
 TEST_CASE("signals within a second count as one") {
   const Bench bench;
-  const pid_t process = bench.start(long_run + "000 -o mesh.vtp");
-  wait_for_handler(process, SIGTERM);
+  const pid_t process = start_iterating(bench, long_run + "000 -o mesh.vtp");
   REQUIRE(::kill(process, SIGTERM) == 0);
   for (int again = 0; again < 300; ++again) { // until after its end
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ::kill(process, SIGTERM);
   }
-  CHECK(bench.finish(process).code == 143);
+  const Outcome outcome = bench.finish(process);
+  CHECK(outcome.code == 143);
+  CHECK(lines_of(outcome.err).size() == 3); // one answer
   CHECK(bench.names() == std::set<std::string>{"mesh.vtp", "mesh.vtp.checkpoint"});
+}
+
+TEST_CASE("the answer to a signal gives the size that the file then has") {
+  const Bench bench;
+  const pid_t process = start_iterating(bench, "cvt --cells 2562 --iterations 1000000 -o mesh.nc");
+  REQUIRE(::kill(process, SIGTERM) == 0);
+  const Outcome outcome = bench.finish(process);
+  CHECK(outcome.code == 143);
+  std::smatch found;
+  REQUIRE(std::regex_search(outcome.err, found, std::regex("then writes ([0-9.]+) MB to mesh.nc")));
+  const double told = 1e6 * std::stod(found[1]),
+               size = static_cast<double>(fs::file_size(bench.folder() / "mesh.nc"));
+  CHECK(told == doctest::Approx(size).epsilon(0.02));
+}
+
+TEST_CASE("a signal before an output says that nothing is written, and ends the command at once") {
+  const Bench bench;
+  REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
+  for (const std::string command : {"cvt never -o mesh.vtp", "delaunay never -o mesh.vtp"})
+    for (const int signal : {SIGINT, SIGTERM}) {
+      CAPTURE(command);
+      CAPTURE(signal);
+      const pid_t process = bench.start(command);
+      wait_for_handler(process, signal);
+      REQUIRE(::kill(process, signal) == 0);
+      const Outcome outcome = bench.finish(process);
+      CHECK(outcome.code == -signal);
+      CHECK(outcome.err == std::string("calotte: stopped by ") +
+                               (signal == SIGINT ? "SIGINT" : "SIGTERM") +
+                               "; nothing is written\n");
+      CHECK(bench.names() == std::set<std::string>{"never"});
+    }
+}
+
+TEST_CASE("a signal while a command writes says what becomes of its files") {
+  const Bench bench;
+  const std::string pipe = bench.path("points.txt");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  const pid_t process = bench.start("points random 100000 -o points.txt"); // more than a pipe holds
+  char first = 0;
+  wait_until([&] { return ::read(reader, &first, 1) == 1; });
+  REQUIRE(::kill(process, SIGTERM) == 0);
+  const Outcome outcome = bench.finish(process);
+  ::close(reader);
+  CHECK(outcome.code == -SIGTERM);
+  CHECK(outcome.err == "calotte: stopped by SIGTERM; unfinished files are named *.part*, and "
+                       "removed when they are written again\n");
+}
+
+TEST_CASE("a command that was started to ignore SIGINT ignores it") {
+  const Bench bench;
+  REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
+  const pid_t process = bench.start("delaunay never -o mesh.vtp", "trap '' INT;");
+  wait_for_handler(process, SIGTERM);
+  REQUIRE(::kill(process, SIGINT) == 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  REQUIRE(::kill(process, SIGTERM) == 0);
+  const Outcome outcome = bench.finish(process);
+  CHECK(outcome.code == -SIGTERM);
+  CHECK(has(outcome.err, "stopped by SIGTERM"));
+}
+
+TEST_CASE("a terminal shows the stage, and the answer to a signal in a line of its own") {
+  const Bench bench;
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  REQUIRE(terminal >= 0);
+  REQUIRE(::grantpt(terminal) == 0);
+  REQUIRE(::unlockpt(terminal) == 0);
+  const winsize size{.ws_row = 24, .ws_col = 60, .ws_xpixel = 0, .ws_ypixel = 0};
+  REQUIRE(::ioctl(terminal, TIOCSWINSZ, &size) == 0);
+  const pid_t process = bench.start("cvt --cells 2562 --iterations 1000000 -o mesh.nc 2>" +
+                                    std::string(::ptsname(terminal)));
+  std::string shown;
+  const auto read_more = [&] {
+    std::array<char, 4096> text;
+    const auto got = ::read(terminal, text.data(), text.size());
+    if (got > 0)
+      shown.append(text.data(), static_cast<std::size_t>(got));
+    return got;
+  };
+  wait_until([&] { return read_more(), has(shown, "iteration "); });
+  REQUIRE(::kill(process, SIGTERM) == 0);
+  wait_until([&] { return read_more(), has(shown, "stopped by SIGTERM after "); });
+  CHECK(bench.finish(process).code == 143);
+  ::close(terminal);
+  CHECK(has(shown, "\r\033[Kcalotte: the run stops after the "));
+  CHECK(has(shown, "... (")); // a line of progress is no wider than the terminal
+  std::replace(shown.begin(), shown.end(), '\r', '\n');
+  for (const std::string& line : lines_of(shown))
+    if (line.ends_with(" s)\033[K"))
+      CHECK(line.size() < 60 + std::string("\033[K").size());
 }
 
 TEST_CASE("a signal a second after another one ends the process at once") {
   const Bench bench;
-  // One iteration of this run, whose density is a maximum of many bumps, takes longer than any wait
-  // here.
+  // One iteration of this run, whose density is a maximum of many bumps, takes longer than the
+  // waits between the signals.
   std::string bumps;
-  for (int k = 0; k < 3000; ++k)
+  for (int k = 0; k < 1500; ++k)
     bumps += (k == 0 ? "\"" : ", \"") + bump_density(3) + "\"";
   bench.file("bumps.toml", "density = [" + bumps + "]\n");
-  const pid_t process =
-      bench.start("cvt --cells 40000 --start random --threads 1 --config bumps.toml -o mesh.vtp "
-                  "--checkpoint run.checkpoint");
-  wait_for_handler(process, SIGTERM);
+  const pid_t process = start_iterating(
+      bench, "cvt --cells 40000 --start random --threads 1 --config bumps.toml -o mesh.vtp "
+             "--checkpoint run.checkpoint");
   REQUIRE(::kill(process, SIGTERM) == 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(1300));
   REQUIRE(::kill(process, SIGINT) == 0);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_forecast.h"
+#include "run/progress.h"
+#include "support/text.h"
 #include "text/text.h"
 
 #include <doctest/doctest.h>
@@ -12,6 +14,7 @@
 
 using namespace calotte;
 using namespace calotte::tools;
+using calotte::test::has;
 
 namespace {
 
@@ -214,6 +217,32 @@ TEST_CASE("sizes of data for people have three digits") {
                                                    {4e12, "4 TB"},
                                                    {5e15, "5e+03 TB"}})
     CHECK(data_size(bytes) == words);
+}
+
+TEST_CASE("the line of a stage has a bar where the part that is done is known") {
+  CHECK(progress_line("reading a.nc", {}, 3.14, 0) == "calotte: reading a.nc (3.1 s)");
+  CHECK(progress_line("writing a.nc", 0.25, 3.14, 0) ==
+        "calotte: writing a.nc [#####---------------]  25% (3.1 s)");
+  CHECK(has(progress_line("w", 0, 0, 0), " [--------------------]   0% "));
+  CHECK(has(progress_line("w", 1, 0, 0), " [####################] 100% "));
+  CHECK(has(progress_line("w", 1.5, 0, 0), " [####################] 100% "));
+}
+
+TEST_CASE("the line of a stage is narrower than the terminal, and cut between characters") {
+  const std::string name = "writing Küstengitter/höchste-Auflösung.nc";
+  for (int columns = 1; columns < 120; ++columns) {
+    CAPTURE(columns);
+    const std::string line = progress_line(name, 0.5, 3.14, columns);
+    const std::string whole = progress_line(name, 0.5, 3.14, 0);
+    CHECK(line.ends_with(" [##########----------]  50% (3.1 s)"));
+    CHECK((line.size() < static_cast<std::size_t>(columns) || columns < 50));
+    const std::size_t end = line.find("... [");
+    CHECK((line == whole || end != std::string::npos));
+    if (line != whole) { // what is left is a beginning of whole characters
+      CHECK(whole.starts_with(line.substr(0, end)));
+      CHECK((static_cast<unsigned char>(whole[end]) & 0xc0U) != 0x80);
+    }
+  }
 }
 
 TEST_CASE("progress names the level, the norm and the prediction") {

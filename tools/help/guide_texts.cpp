@@ -161,8 +161,9 @@ constexpr const char* resume =
   calotte cvt --cell-width 15km --checkpoint run.state -o earth.nc
   calotte cvt --resume run.state -o earth.nc
 
-Control-C ends a run after its iteration: the mesh is written as it is, and the state to
-earth.nc.checkpoint.
+Control-C ends a run after its iteration, and a line says at once what it still writes: the mesh as
+it is, and the state to earth.nc.checkpoint. Control-C again, after a second, ends it at once,
+without a mesh.
 )";
 
 constexpr const char* examples = R"(A first grid, its check, its measures and a picture.

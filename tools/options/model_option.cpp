@@ -37,12 +37,6 @@ CLI::Option* add_demanding_model(CLI::App& command, std::optional<std::string>& 
       ->check(CLI::IsMember(known));
 }
 
-const ModelNeeds* demanding_model_of(const std::optional<std::string>& word, const MeshFile& file) {
-  if (word && !file.surface().is_sphere())
-    refuse(message("--for {}: the demands are on grids of the sphere; leave it out", *word));
-  return model_of(word);
-}
-
 const ModelNeeds* model_of(const std::optional<std::string>& word) {
   return word ? find_model(*word) : nullptr;
 }

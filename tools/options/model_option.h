@@ -3,7 +3,6 @@
 
 #include "help/cli_forward.h"
 
-#include <calotte/mesh_file.h>
 #include <calotte/write.h>
 
 #include <optional>
@@ -17,10 +16,6 @@ CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word);
 
 /// Adds --for to a command that compares a grid with the demands of a model.
 CLI::Option* add_demanding_model(CLI::App& command, std::optional<std::string>& word);
-
-/// The model of its word; null without one.
-/// \throws Error invalid_argument for a file of a plane.
-const ModelNeeds* demanding_model_of(const std::optional<std::string>& word, const MeshFile& file);
 
 /// The model of a word; null without one.
 const ModelNeeds* model_of(const std::optional<std::string>& word);

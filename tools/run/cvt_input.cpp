@@ -158,8 +158,9 @@ GridInput read_grid(const DensityWords& density, const RegionWords& part,
   return input;
 }
 
-CvtInput read_input(const CvtRequest& request) {
+CvtInput read_input(const CvtRequest& request, Progress& progress) {
   CvtInput input;
+  progress.stage(request.density->widths.in_km() ? "reading the widths" : "reading the density");
   GridInput grid = read_grid(*request.density, request.part, request.cells,
                              planar(request) ? surface_of(*request.domain) : std::nullopt);
   input.rules = std::move(grid.rules);
@@ -174,16 +175,21 @@ CvtInput read_input(const CvtRequest& request) {
   const DelaunayOptions merging = options_of(*request.delaunay);
   recipe.duplicates = merging.duplicates;
   recipe.merge_within = merging.merge_within;
-  if (!request.points.empty())
+  if (!request.points.empty()) {
+    progress.stage("reading " + request.points);
     recipe.start.points = read(request, request.points, "points", input.file, input.points);
-  if (!request.fixed.empty())
+  }
+  if (!request.fixed.empty()) {
+    progress.stage("reading " + request.fixed);
     read_fixed(request, input);
+  }
   if (!request.budget.empty())
     recipe.cells = cells_of_budget(request, input);
   return input;
 }
 
-Schedule plan_of(const CvtInput& input) {
+Schedule plan_of(const CvtInput& input, Progress& progress) {
+  progress.stage("planning the run");
   try {
     return plan(input.recipe);
   } catch (const Error& error) {

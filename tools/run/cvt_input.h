@@ -2,6 +2,7 @@
 #pragma once
 
 #include "options/cvt_request.h"
+#include "run/progress.h"
 
 #include <calotte/error.h>
 #include <calotte/grid.h>
@@ -50,11 +51,11 @@ void require_start(const CvtRequest& request);
 
 /// Reads all files that a recipe takes.
 /// \throws Error invalid_argument, parse, file.
-CvtInput read_input(const CvtRequest& request);
+CvtInput read_input(const CvtRequest& request, Progress& progress);
 
 /// The schedule of its recipe. An error that names a point names its line, too.
 /// \throws Error as plan().
-Schedule plan_of(const CvtInput& input);
+Schedule plan_of(const CvtInput& input, Progress& progress);
 
 /// Rejects options that the start chosen for the request does not have. \throws Error
 /// invalid_argument.

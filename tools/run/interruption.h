@@ -2,23 +2,37 @@
 #pragma once
 
 #include <csignal>
+#include <list>
+#include <string>
 
 namespace calotte::tools {
 
-/// During its lifetime, the first SIGINT or SIGTERM is recorded instead of ending the process.
-/// Others within a second count as the same, also after the lifetime; a later one ends the process
-/// at once. One object at a time.
+/// From here on SIGINT and SIGTERM end the process with a line on standard error: that it has
+/// written nothing. A signal that the process ignores stays ignored. Call it once.
+void announce_end();
+
+/// From here on that line says how files are named that are not complete: see OutputFile.
+void announce_files();
+
+/// During its lifetime, the first SIGINT or SIGTERM is answered with a line and recorded instead of
+/// ending the process. Others within a second count as the same, also after the lifetime; a later
+/// one ends the process at once. One object at a time.
 class Interruption {
 public:
-  Interruption();
+  /// \param answer the line on standard error, without its end.
+  explicit Interruption(const std::string& answer);
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
   ~Interruption();
+
+  /// Replaces the answer; memory grows with each other text.
+  void set_answer(const std::string& answer);
 
   /// The signal received, or 0.
   static int signal();
 
 private:
+  std::list<std::string> answers_; ///< all, as a handler may be reading one
   struct sigaction before_interrupt_ = {}, before_terminate_ = {};
 };
 
