@@ -15,6 +15,7 @@
 #include "options/sphere_radius_option.h"
 #include "options/units_option.h"
 #include "options/warning.h"
+#include "run/cvt_checks.h"
 #include "run/cvt_input.h"
 #include "run/grid_plan.h"
 #include "run/progress.h"
@@ -39,7 +40,6 @@ struct PlanRequest {
   std::shared_ptr<CvtRequest> run;  ///< without files that it writes
   std::optional<std::string> model; ///< --for
   std::optional<double> sphere_radius;
-  std::optional<std::string> units;
   std::optional<bool> coastlines; ///< of the picture
   std::string picture, raster, report;
 };
@@ -77,6 +77,8 @@ void require_request(const PlanRequest& request) {
   const CvtRequest& run = *request.run;
   const WidthWords& widths = run.density->widths;
   require_start(run);
+  if (planar(run))
+    require_no_sphere(request.sphere_radius, run.units);
   require_sphere_radius(request.sphere_radius.value_or(1));
   radius_for(model_of(request.model), request.sphere_radius); // throws for a contradiction
   if (!request.picture.empty() && !is_page(request.picture))
@@ -101,7 +103,7 @@ std::optional<double> radius_of(const PlanRequest& request) {
 }
 
 Unit unit_for(const PlanRequest& request, const GridPlan& plan) {
-  return plan.surface.is_sphere() ? unit_of(request.units, plan.radius_km) : Unit();
+  return plan.surface.is_sphere() ? unit_of(request.run->units, plan.radius_km) : Unit();
 }
 
 /// The raster of a recipe's widths.
@@ -141,11 +143,13 @@ GridPlan make_plan(const PlanRequest& request) {
   return plan;
 }
 
-/// The grid of --hexagons needs no run.
-/// \throws Error invalid_argument for files to write.
+/// The grid of --hexagons needs no run. A model has no effect on it, but on the file of calotte
+/// cvt, whose options these are.
+/// \throws Error invalid_argument for other options.
 void print_hexagons(const PlanRequest& request) {
-  if (!request.report.empty() || !request.picture.empty() || !request.raster.empty())
-    refuse("--hexagons needs no run; leave --report, --output and --raster out");
+  require_no_run(*request.run, {"for"});
+  if (!request.report.empty() || !request.picture.empty()) // which are no options of a run
+    refuse("--hexagons needs no run; leave --report and --output out");
   const MeshFile file = hexagons_of(*request.run->domain);
   const std::int64_t cells = file.polygons ? file.polygons->size() : file.mesh->points.cols();
   std::cout << row("cells", 22, message("{} regular hexagons", cells));
@@ -171,7 +175,7 @@ void add_outputs(CLI::App& command, PlanRequest& request) {
   add_sphere_radius(command, request.sphere_radius,
                     "Radius of the sphere, for distances in km where no widths give it: metres, > "
                     "0, or earth (6371229 m); default: that of the model of --for");
-  add_units(command, request.units);
+  add_units(command, request.run->units);
   command
       .add_option("-o,--output", request.picture,
                   "Draw the cell widths on a map of longitude and latitude: .png, .svg or .pdf; or "
@@ -208,7 +212,10 @@ void add_plan(CLI::App& app) {
                 "calotte plan --cell-width 60km", "calotte plan --config grid.toml",
                 "calotte plan --cell-width 60km --region circle=-105,40,1000km --limited-area",
                 "calotte plan --cell-width coast.geojson --outside-width 120 --transition 4000"}});
-  command->callback([request] { run(*request); });
+  command->callback([request, command] {
+    request->run->options = given_options(*command);
+    run(*request);
+  });
 }
 
 } // namespace calotte::tools

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
 
+#include <calotte/widths.h>
+
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <iomanip>
+#include <numbers>
+#include <sstream>
 #include <string>
 
 using namespace calotte::test;
@@ -183,6 +188,30 @@ TEST_CASE("info speaks in km, degrees or radians") {
 --units km | 2 | --units km requires the radius of the sphere; give --sphere-radius earth, or a radius in metres
 --plane --units km | 2 | unit.vtp: it holds no mesh of the plane: z is not 0 at point 0; leave --plane out
 --rectangle 0,0,1,1 | 2 | --rectangle applies to the plane only, and unit.vtp holds a mesh of the sphere; leave it out
+)");
+}
+
+TEST_CASE("a run tells its widths in km, or in the unit of --units") {
+  const Bench bench;
+  const double degrees = 900 / calotte::earth_radius_km * 180 / std::numbers::pi;
+  const auto told = [&](const std::string& options) {
+    return check_success(bench, "cvt --iterations 1 -o a.vtp --cells 642 " + options).err;
+  };
+  CHECK(told("--cell-width 900km") == told("--cell-width 900km --units km"));
+  CHECK(has(told("--cell-width 900km"), "cells 900 km wide require "));
+  std::ostringstream words;
+  words << "cells " << std::setprecision(4) << degrees << " degrees wide require ";
+  CHECK(has(told("--cell-width 900km --units degrees"), words.str()));
+  CHECK(has(told("--cell-width 900km --units radians"), "cells 0.1413 radians wide require "));
+  // The unit is that of the output alone: the mesh is the same.
+  const std::string mesh = bench.file("a.vtp");
+  told("--cell-width 900km");
+  CHECK(bench.file("a.vtp") == mesh);
+  check_refusals(bench, "cvt -o b.vtp", R"(
+--cells 100 --units km | 2 | --units is the unit of widths; leave it out, or give --cell-width
+--cells 100 --units miles --cell-width 900km | 2 | --units: miles not in {km,degrees,radians}
+--cells 100 --rectangle 0,0,2,1 --units km | 2 | a plane has the unit of its coordinates; leave --units out
+--hexagons 6,8,10 --units km | 2 | without a run; leave --units out
 )");
 }
 

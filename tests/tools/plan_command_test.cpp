@@ -264,6 +264,14 @@ TEST_CASE("a plan is in km where widths, a radius or a model give one, and says 
   CHECK(has(shown("--cells 1000000000"), " of this machine: give fewer cells, or use a larger "));
 }
 
+TEST_CASE("a plan and a run of hexagons take the same options, also of a model") {
+  const Bench bench;
+  bench.file("box.toml", "hexagons = \"6,8,10\"\nwalls = \"y\"\nfor = \"mpas-ocean\"\n");
+  CHECK(check_success(bench, "plan --config box.toml").out ==
+        "cells                 48 regular hexagons\n");
+  CHECK(has(check_success(bench, "cvt --config box.toml -o box.nc").out, "box.nc: 48 hexagons, "));
+}
+
 TEST_CASE("bad input ends in one line, and nothing is written") {
   const Bench bench;
   bench.file("metres.msh", raster([](double) { return 30000; }));
@@ -275,8 +283,14 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
 -o widths.png --cells 11 | 2 | 11
 -o widths.png --cells 100 --sphere-radius 0 | 2 | --sphere-radius 0 is not a positive number; give one such as
 -o widths.png --cells 100 --for mpas-ocean --sphere-radius 1 | 2 | --for mpas-ocean needs a sphere with a radius of 6371220
---hexagons 6,8,10 --report plan.json | 2 | --hexagons needs no run; leave --report, --output and --raster out
---hexagons 6,8,10 -o widths.png | 2 | --hexagons needs no run; leave --report, --output and --raster out
+--hexagons 6,8,10 --report plan.json | 2 | --hexagons needs no run; leave --report and --output out
+--hexagons 6,8,10 -o widths.png | 2 | --hexagons needs no run; leave --report and --output out
+--hexagons 6,8,10 --raster a.nc | 2 | without a run; leave --raster out
+--hexagons 6,8,10 --units km | 2 | without a run; leave --units out
+--hexagons 6,8,10 --sphere-radius earth | 2 | without a run; leave --sphere-radius out
+--hexagons 6,8,10 --cells 48 | 2 | without a run; leave --cells out
+--rectangle 0,0,2,1 --cells 100 --units km | 2 | a plane has the unit of its coordinates; leave --units out
+--rectangle 0,0,2,1 --cells 100 --sphere-radius earth | 2 | --sphere-radius does not apply to the plane
 -o widths.png --cells 100 --rectangle 0,0,2,1 | 2 | -o draws widths on the sphere; leave it out for a plane
 --cells 100 --start fibonacci --seed 2 | 2 | --seed applies to the starts multilevel, continuation, random and density only
 -o widths.png --report plan.json --cell-width absent.nc | 3 | absent.nc

@@ -83,7 +83,8 @@ constexpr const char* units = R"(Units of options and files.
   heights                m or km, by the attribute units; below 0 is sea
   areas of islands       km^2 (cull --least-area, and least-area of rules)
 
-calotte info --units and view --units choose km, degrees or radians of what they print.
+--units of plan, cvt, info, view and draw chooses km, degrees or radians of what they print and
+show, but for reports. Gradients are the same in each unit.
 )";
 
 constexpr const char* depth =

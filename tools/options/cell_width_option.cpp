@@ -65,12 +65,18 @@ double scale_of(double implied, std::optional<std::int64_t> cells) {
 
 /// The cells that a uniform width requires, and the width in a grid of another number.
 std::string note_on_uniform(double implied, const WidthWords& words,
-                            std::optional<std::int64_t> cells) {
-  const std::string note =
-      message("cells {} wide require {} cells", name_of(words), formatted("%.0f", implied));
+                            std::optional<std::int64_t> cells, const Unit& unit) {
+  const double of_km = unit.of_radian / words.radius;
+  const std::string note = message(
+      "cells {} wide require {} cells",
+      unit.name == "km" ? name_of(words)
+                        : message("{} {}", formatted("%.4g", *words.uniform * of_km), unit.name),
+      formatted("%.0f", implied));
   if (!cells || *cells == std::llround(implied))
     return note;
-  const std::string width = formatted("%.4g km wide", *words.uniform * scale_of(implied, cells));
+  const std::string width =
+      message("{} {} wide", formatted("%.4g", *words.uniform * of_km * scale_of(implied, cells)),
+              unit.name);
   return *cells == cells_of_uniform(implied)
              ? message("{}; a symmetric grid near that has {}, {}", note, *cells, width)
              : message("{}; the {} cells of the grid are {}", note, *cells, width);
@@ -149,11 +155,13 @@ std::string remedy_of(const WidthWords& words, bool scaled) {
                  words.transition ? ", or increase --transition" : "");
 }
 
-/// "cells 100 to 200", the unit, and the nodes.
-std::string range_words(const WidthField& widths, const WidthWords& words,
+/// "cells 100 to 200 km wide", and the nodes.
+/// \param scale unit of one of the widths.
+std::string range_words(const WidthField& widths, const WidthWords& words, double scale,
                         const std::string& unit) {
   return message("{}: cells {} to {}{} wide, at {} nodes{}, require ", words.file,
-                 formatted("%.4g", widths.least()), formatted("%.4g", widths.greatest()), unit,
+                 formatted("%.4g", scale * widths.least()),
+                 formatted("%.4g", scale * widths.greatest()), unit.empty() ? "" : " " + unit,
                  widths.nodes(),
                  widths.apart() > 1 ? formatted(" up to %.3g widths apart", widths.apart()) : "");
 }
@@ -286,15 +294,17 @@ std::string doubt_of(const WidthField& widths, const WidthWords& words) {
 }
 
 std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& words,
-                                  std::optional<double> limit, std::optional<std::int64_t> cells) {
+                                  std::optional<double> limit, std::optional<std::int64_t> cells,
+                                  const Unit& unit) {
   const double implied = implied_cells(widths, {}, words.radius);
   if (words.uniform)
-    return with_doubt({note_on_uniform(implied, words, cells)}, widths, words);
+    return with_doubt({note_on_uniform(implied, words, cells, unit)}, widths, words);
   const double scale = scale_of(implied, cells);
   const WidthGradient gradient = steepest_of(widths, words, limit, scale);
   const std::string slope = distinct_from(steepest_width, gradient.slope);
   std::vector<std::string> notes{
-      message("{}{} cells{}; largest gradient {} km per km", range_words(widths, words, " km"),
+      message("{}{} cells{}; largest gradient {} km per km",
+              range_words(widths, words, unit.of_radian / words.radius, unit.name),
               formatted("%.0f", implied), scale_words(scale, cells), slope)};
   if (is_too_steep(gradient.slope))
     notes.push_back(message("warning: the cell width changes by {} km per km at {}, above {}, the "
@@ -308,7 +318,7 @@ std::vector<std::string> notes_in_plane(const WidthField& widths, const WidthWor
                                         double implied, std::optional<std::int64_t> cells) {
   return {message("{}{} cells{}",
                   words.uniform ? message("cells {} wide require ", *words.uniform)
-                                : range_words(widths, words, ""),
+                                : range_words(widths, words, 1, ""),
                   formatted("%.0f", implied), scale_words(scale_of(implied, cells), cells))};
 }
 

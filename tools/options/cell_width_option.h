@@ -3,6 +3,7 @@
 
 #include "help/cli_forward.h"
 
+#include <calotte/quality.h>
 #include <calotte/read.h>
 #include <calotte/widths.h>
 
@@ -65,12 +66,13 @@ WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
 /// Where it is: "12.5 E 48.2 S".
 std::string lonlat_words(const WidthGradient& gradient);
 
-/// A summary of widths in km before a run: their range, the cells that they imply and their largest
+/// A summary of widths before a run: their range, the cells that they imply and their largest
 /// gradient; also a warning, on its own line, if that exceeds the value that models recommend.
 /// \param limit of their gradient. \param cells number of cells of the run, if known: it scales
-///        all widths.
+///        all widths. \param unit of widths; gradients are those of --gradient.
 std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& words,
-                                  std::optional<double> limit, std::optional<std::int64_t> cells);
+                                  std::optional<double> limit, std::optional<std::int64_t> cells,
+                                  const Unit& unit);
 
 /// The same of widths in the plane.
 /// \param implied number of cells.

@@ -6,6 +6,7 @@
 #include "options/format_options.h"
 #include "options/numbers.h"
 #include "options/picture_density.h"
+#include "options/units_option.h"
 
 #include <calotte/checkpoint.h>
 #include <calotte/cut.h>
@@ -254,6 +255,7 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
   const std::shared_ptr<CvtRequest> request = add_run_options(command);
   const OptionGroup group(command, "Output");
   add_files(command, *request);
+  add_units(command, request->units);
   add_saved(command, *request);
   return request;
 }

@@ -43,6 +43,7 @@ struct CvtRequest {
   std::optional<int> iterations;
   std::shared_ptr<DelaunayWords> delaunay;
 
+  std::optional<std::string> units; ///< --units, of widths in messages
   std::shared_ptr<FormatWords> format;
   std::string mesh, report;
   std::string checkpoint, resume;

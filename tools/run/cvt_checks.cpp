@@ -33,8 +33,7 @@ void require_plane(const CvtRequest& request, const WriteOptions& options) {
   require_walls_format(request, options);
   if (!request.points.empty() && request.domain->walls)
     refuse("--walls needs points beyond them, too; give --cells instead of START");
-  if (request.format->sphere_radius)
-    refuse("--sphere-radius does not apply to the plane; leave it out");
+  require_no_sphere(request.format->sphere_radius, request.units);
 }
 
 /// Rejects formats and options that a run in a region does not support.
@@ -63,9 +62,17 @@ std::string graph_of(const std::string& mesh, Format format) {
 
 } // namespace
 
-void require_hexagons(const CvtRequest& request) {
-  static const std::set<std::string> allowed{"hexagons", "walls",  "output",  "format",
-                                             "for",      "config", "threads", "numbering"};
+void require_no_sphere(const std::optional<double>& sphere_radius,
+                       const std::optional<std::string>& units) {
+  if (sphere_radius)
+    refuse("--sphere-radius does not apply to the plane; leave it out");
+  if (units)
+    refuse("a plane has the unit of its coordinates; leave --units out");
+}
+
+void require_no_run(const CvtRequest& request, const std::set<std::string>& outputs) {
+  std::set<std::string> allowed{"hexagons", "walls", "config", "threads"};
+  allowed.insert(outputs.begin(), outputs.end());
   const auto exclude = [](const std::string& option) {
     refuse(message("--hexagons makes a uniform grid without a run; leave {} out", option));
   };
@@ -77,6 +84,10 @@ void require_hexagons(const CvtRequest& request) {
   for (std::string line; std::getline(given, line);)
     if (const std::string name = line.substr(0, line.find('\t')); !allowed.contains(name))
       exclude("--" + name);
+}
+
+void require_hexagons(const CvtRequest& request) {
+  require_no_run(request, {"output", "format", "for"});
   require_walls_format(request, write_options(request));
   require_outputs({{"mesh", request.mesh}}, {*request.config});
 }
@@ -89,6 +100,8 @@ void require_request(const CvtRequest& request) {
   if (planar(request))
     require_plane(request, options);
   require_region_format(request, options);
+  if (request.units && !request.density->widths.in_km())
+    refuse("--units is the unit of widths; leave it out, or give --cell-width");
   const WidthWords& widths = request.density->widths;
   const std::vector<std::string> inputs{request.points,
                                         request.fixed,

@@ -6,6 +6,7 @@
 #include "options/format_options.h"
 #include "options/point_file.h"
 #include "options/region_option.h"
+#include "options/units_option.h"
 #include "text/text.h"
 
 #include <calotte/read.h>
@@ -227,7 +228,8 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
   else if (widths && !input.recipe.surface.is_bounded())
     notes = notes_on(*widths, words, input.rules.gradient,
                      input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
-                                                                        : std::nullopt);
+                                                                        : std::nullopt,
+                     unit_of(request.units, words.radius));
   if (schedule.on_lines > 0)
     notes.push_back(
         message("{}: {} {} {} generators; no place on them is farther from one than {} of "

@@ -225,21 +225,25 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
   Raster widths = raster_of(words);
   const double implied = implied_cells(widths);
   const std::string cells = std::to_string(std::llround(implied));
-  std::vector<std::string> notes = notes_on(widths, words.widths, words.widths.gradient, {});
+  const Unit km = unit_of("km", earth_radius_km);
+  std::vector<std::string> notes = notes_on(widths, words.widths, words.widths.gradient, {}, km);
   REQUIRE(notes.size() == 1);
   CHECK(notes[0] == file.path() + ": cells 100 to 100 km wide, at 12 nodes, require " + cells +
                         " cells; largest gradient 0 km per km");
-  notes = notes_on(widths, words.widths, {}, std::llround(implied / 4));
+  notes = notes_on(widths, words.widths, {}, std::llround(implied / 4), km);
   CHECK(test::has(notes[0], "; with " + std::to_string(std::llround(implied / 4)) +
                                 " cells, widths are 2 times as large;"));
+  notes = notes_on(widths, words.widths, {}, {}, unit_of("degrees", earth_radius_km));
+  CHECK(
+      test::has(notes[0], ": cells 0.8993 to 0.8993 degrees wide, at 12 nodes, require " + cells));
   // 500 km over 10 007 km either way; half a cell from the tip 1 - 300/10 007 of that.
   widths.values(1, 1) = 600;
-  notes = notes_on(widths, words.widths, words.widths.gradient, {});
+  notes = notes_on(widths, words.widths, words.widths.gradient, {}, km);
   REQUIRE(notes.size() == 2);
   CHECK(notes[1] == "warning: the cell width changes by 0.069 km per km at 90.0 E 0.0 N, above "
                     "0.03, the limit for most models; give --gradient 0.03");
   words = parsed({"--cell-width", file.path(), "--gradient", "0.05"});
-  notes = notes_on(widths, words.widths, words.widths.gradient, {});
+  notes = notes_on(widths, words.widths, words.widths.gradient, {}, km);
   REQUIRE(notes.size() == 2);
   CHECK(test::has(notes[1], "changes by 0.05 km per km"));
   CHECK(notes[1].ends_with("; give a smaller --gradient"));
