@@ -173,15 +173,20 @@ std::string remarks_of(const InfoRequest& request, const Measured& measured) {
   return lines;
 }
 
-/// The numbers of one cell, a line each.
-std::string cell_table(const InfoRequest& request, const MeshFile& file) {
+/// The numbers of one cell, a line each. Writes the report, too.
+std::string cell_table(const InfoRequest& request, const MeshFile& file, Progress& progress) {
   const ViewMesh mesh = view_mesh(request.source->path, file,
                                   {.density = density_of(*request.density, file.mesh->surface),
                                    .radius_km = radius_of(request, file),
                                    .units = request.units,
                                    .operators = request.operators,
                                    .most_cells = std::numeric_limits<std::int64_t>::max()});
-  return cell_table(mesh, *request.cell);
+  std::string lines = cell_table(mesh, *request.cell);
+  if (!request.report.empty()) {
+    progress.writing(request.report);
+    write_file(request.report, cell_report(mesh, *request.cell));
+  }
+  return lines;
 }
 
 /// The fields at cells: those with one number for each at the indices of --at, and the others.
@@ -262,7 +267,7 @@ std::string read_and_measure(const InfoRequest& request) {
     set_surface(*file.mesh, *part);
   progress.stage("measuring " + request.source->path);
   if (request.cell)
-    return cell_table(request, file);
+    return cell_table(request, file, progress);
   Measured measured;
   measured.changes = file.changes;
   const std::optional<Surface> covered = filled_surface(file);

@@ -172,8 +172,22 @@ TEST_CASE("the page's numbers are those of calotte info") {
   const std::string spacing = between(cell.out, "spacing", " km");
   CHECK(std::stod(spacing) ==
         doctest::Approx(page.numbers(page.measure("spacing")["values"])[17]).epsilon(1e-4));
-  check_refusals(bench, "info grid.nc",
-                 "--cell 642 | 2 | --cell 642: the mesh has the cells 0 to 641");
+  const Outcome reported = bench.run("info grid.nc --cell 17 --report cell.json");
+  CHECK(reported.out == cell.out);
+  const json report = json::parse(bench.file("cell.json"));
+  CHECK(report["cell"] == 17);
+  CHECK(report["longitude"].get<double>() ==
+        doctest::Approx(std::stod(between(cell.out, "longitude", "\n"))).epsilon(1e-5));
+  CHECK(report["quantities"]["spacing"]["unit"] == "km");
+  CHECK(report["quantities"]["spacing"]["value"].get<double>() ==
+        doctest::Approx(std::stod(spacing)).epsilon(1e-3));
+  const auto rows = std::count(cell.out.begin(), cell.out.end(), '\n');
+  CHECK(static_cast<std::ptrdiff_t>(report["quantities"].size()) == rows - 3); // cell and location
+  check_refusals(bench, "info grid.nc", R"(
+--cell 642 | 2 | --cell 642: the mesh has the cells 0 to 641
+--cell 642 --report no.json | 2 | --cell 642: the mesh has the cells 0 to 641
+--cell 17 --report grid.nc | 2 | grid.nc is both input and output
+)");
 }
 
 TEST_CASE("a page shows the errors of operators where they are asked for") {

@@ -58,6 +58,10 @@ ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& cho
 /// \throws Error invalid_argument if the mesh does not have it.
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell);
 
+/// The same as JSON: a quantity by its name, with its unit; null where the cell has no value.
+/// \throws Error as cell_table().
+std::string cell_report(const ViewMesh& mesh, std::int64_t cell);
+
 /// The site of the smallest cell.
 Eigen::Vector3d finest_place(const ViewMesh& mesh);
 
