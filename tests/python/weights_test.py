@@ -23,6 +23,7 @@ def test_weights_keep_integrals(mesh):
         assert weights.target_area @ moved == pytest.approx(weights.source_area @ values, abs=1e-11)
         assert np.abs(weights.source_fraction - 1).max() < 1e-11
         assert np.abs(weights.target_fraction - 1).max() < 1e-11
+        assert (calotte.interpolate(source, values, target) == moved).all()  # conservative, too
         assert calotte.interpolate(source, values, target, method="conservative") == pytest.approx(moved)
         two = weights.apply(np.stack([values, 2 * values], axis=1))
         assert np.allclose(two, np.stack([moved, 2 * moved], axis=1))
@@ -86,6 +87,8 @@ def test_weights_at_positions(mesh):
             found = calotte.interpolate(source, values, stations, method=method)
             assert np.allclose(weights.matrix @ values, found) and (weights.apply(values) == found).all()
             assert repr(weights) == f"<calotte.Weights: {len(source)} to 3 positions, {method}>"
+    assert (calotte.interpolate(mesh, np.arange(800.0), stations) ==
+            calotte.interpolate(mesh, np.arange(800.0), stations, method="linear")).all()
     nearest = calotte.interpolate(mesh, np.arange(800), stations, method="nearest")
     assert (nearest == calotte.locate(mesh, stations).nearest).all()
     assert (calotte.interpolation_weights(mesh, stations).matrix.getnnz(axis=1) <= 3).all()

@@ -478,17 +478,18 @@ def read_weights(path: Path) -> Weights:
 
 
 def interpolate(source: Grid | Raster, values: ArrayLike, target: ArrayLike | Grid | Raster, *,
-                method: str = "linear") -> Any:
+                method: str | None = None) -> Any:
     """Values at positions, or at the cells of another grid.
 
     source: what the values are of, as for interpolation_weights(); to positions a Mesh or a Raster.
     values: n numbers, one for each site or cell, with any further dimensions; also of xarray. See
         Weights.apply().
     target: positions, as for locate(); or as for interpolation_weights().
-    method: "linear", "nearest" or "natural"; to another grid also "conservative". See
-        interpolation_weights(), whose result serves for many values.
-    Returns k numbers in place of the n; NaN outside of an open mesh or a raster. Raises Error, with
-    the index of the position.
+    method: as for interpolation_weights(), whose result serves for many values: to another grid
+        "conservative" by default, as calotte interpolate, at positions "linear".
+    Returns k numbers in place of the n; NaN outside of an open mesh or a raster. A conservative
+    value is the mean over the part of the cell that the source covers. Raises Error, with the index
+    of the position.
 
     >>> mesh = delaunay(random_points(200, rectangle((0, 0), (1, 1))), plane())
     >>> values = mesh.points @ [1.0, 2.0]
