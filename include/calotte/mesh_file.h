@@ -181,6 +181,15 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls);
 std::vector<std::optional<std::int64_t>> find_indices(const std::vector<FieldDimension>& dimensions,
                                                       const std::vector<FieldIndex>& choices);
 
+/// The index of every dimension of a field that then has one number for each cell: 0 in dimensions
+/// of the size 1, and else the chosen one.
+/// \param name of the field, for messages.
+/// \throws Error as find_indices(); invalid_argument for a choice that belongs to no dimension, and
+///         for dimensions that lack one, naming those of the field.
+std::vector<std::int64_t> find_all_indices(const std::string& name,
+                                           const std::vector<FieldDimension>& dimensions,
+                                           const std::vector<FieldIndex>& choices);
+
 /// The field at chosen indices, without their dimensions.
 /// \throws Error as find_indices(); invalid_argument for a choice that belongs to no dimension,
 ///         naming those of the field.

@@ -208,6 +208,20 @@ TEST_CASE("indices of dimensions choose one number for each cell") {
   CHECK(level.values == (DoubleVector(8) << 2, 5, 8, 11, 14, 17, 20, 23).finished());
   CHECK(level.leading == 1);
   CHECK(field_at(field, {{"LEVELS", 0}, {"Time", 1}}).values == Eigen::Vector4d(3, 9, 15, 21));
+  const auto all = [&](const std::vector<FieldIndex>& choices) {
+    return find_all_indices("t", field.dimensions, choices);
+  };
+  CHECK(all({{"lev", -1}, {"time", 0}}) == std::vector<std::int64_t>{0, 2});
+  CHECK(find_all_indices("flat", {}, {}).empty());
+  CHECK(find_all_indices("one", {{"Time", 1}}, {}) == std::vector<std::int64_t>{0});
+  CHECK(std::string(error_of([&] {
+                      all({{"time", 0}});
+                    }).what()) ==
+        "t has several numbers for each cell: Time (2), nVertLevels (3); choose one index of each: "
+        "nVertLevels=0");
+  CHECK(std::string(error_of([&] {
+                      all({{"time", 0}, {"x", 0}});
+                    }).what()) == "t has no dimension x; it has Time (2), nVertLevels (3)");
   const Scratch scratch;
   const std::string path = in_folder(scratch, "fields.nc"), mesh = in_folder(scratch, "mesh.nc");
   const FieldGrid grid = written_grid(mesh, delaunay(fibonacci_sphere(100)));

@@ -234,7 +234,7 @@ def test_pictures_of_an_index(mesh, tmp_path):
     mesh.to_mpas(tmp_path / "a.nc", fields={"ssh": array, "flat": values[0]})
     grid = calotte.read(tmp_path / "a.nc", fields="all")
     matplotlib.pyplot.close(grid.plot("ssh", at={"Time": 1}).figure)
-    for field, at, text in ((array, None, r"ssh has time \(3\) for each cell.*at=\{\"time\": 0\}"),
+    for field, at, text in ((array, None, r"numbers for each cell: time \(3\); choose one index of each by at: time=0"),
                             (array, {"time": 3}, "indices 0 to 2"), (array, {"lev": 0}, "no dimension lev; it has time"),
                             (values[0], {"lev": 0}, "it has one number for each cell"), (None, {"time": 0}, "give the field"),
                             (values[:, :5], None, r"shape \(3, 5\)")):

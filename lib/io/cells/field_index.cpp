@@ -46,6 +46,16 @@ std::int64_t index_in(const FieldDimension& dimension, const FieldIndex& choice)
   return index;
 }
 
+/// Refuses choices that belong to no dimension of a field.
+void require_dimensions(const std::string& name, const std::vector<FieldDimension>& dimensions,
+                        const std::vector<FieldIndex>& choices) {
+  for (const FieldIndex& choice : choices)
+    if (!belongs(choice, dimensions))
+      refuse(message("{} has no dimension {}; {}", name, choice.dimension,
+                     dimensions.empty() ? "it has one number for each cell: leave it out"
+                                        : "it has " + in_words(dimensions)));
+}
+
 } // namespace
 
 std::string in_words(const std::vector<FieldDimension>& dimensions) {
@@ -94,13 +104,27 @@ std::vector<std::optional<std::int64_t>> find_indices(const std::vector<FieldDim
   return indices;
 }
 
+std::vector<std::int64_t> find_all_indices(const std::string& name,
+                                           const std::vector<FieldDimension>& dimensions,
+                                           const std::vector<FieldIndex>& choices) {
+  using namespace io_detail;
+  require_dimensions(name, dimensions, choices);
+  const auto found = find_indices(dimensions, choices);
+  std::vector<std::int64_t> indices;
+  std::string lacking; // "Time=0,nVertLevels=0"
+  for (std::size_t d = 0; d < found.size(); ++d) {
+    indices.push_back(found[d].value_or(0));
+    if (!found[d] && dimensions[d].size > 1)
+      lacking += message("{}{}=0", lacking.empty() ? "" : ",", dimensions[d].name);
+  }
+  require(lacking.empty(), "{} has several numbers for each cell: {}; choose one index of each: {}",
+          name, in_words(dimensions), lacking);
+  return indices;
+}
+
 MeshField field_at(const MeshField& field, const std::vector<FieldIndex>& choices) {
   using namespace io_detail;
-  for (const FieldIndex& choice : choices)
-    if (!belongs(choice, field.dimensions))
-      refuse(message("{} has no dimension {}; {}", field.name, choice.dimension,
-                     field.dimensions.empty() ? "it has one number for each cell: leave it out"
-                                              : "it has " + in_words(field.dimensions)));
+  require_dimensions(field.name, field.dimensions, choices);
   return field_at_indices(field, find_indices(field.dimensions, choices));
 }
 

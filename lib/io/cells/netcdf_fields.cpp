@@ -215,16 +215,6 @@ void add_new(const std::vector<FieldDimension>& some, std::vector<FieldDimension
       all.push_back(dimension);
 }
 
-/// Choices that lack: "Time=0,nVertLevels=0".
-std::string example(const MeshField& field,
-                    const std::vector<std::optional<std::int64_t>>& indices) {
-  std::string text;
-  for (std::size_t d = 0; d < indices.size(); ++d)
-    if (!indices[d] && field.dimensions[d].size > 1)
-      text += message("{}{}=0", text.empty() ? "" : ",", field.dimensions[d].name);
-  return text;
-}
-
 } // namespace
 
 void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
@@ -273,17 +263,9 @@ MeshField read_field_at(const NetcdfReader& file, const std::string& name, std::
   std::optional<MeshField> field = make_field_on(file, name, {of_cells});
   if (!field)
     file.fail("{} has a dimension of the size 0; give a file with records", name);
-  for (const FieldIndex& index : choices)
-    if (!belongs(index, field->dimensions))
-      refuse_path(file.path(), "{} has no dimension {}; {}", name, index.dimension,
-                  field->dimensions.empty() ? "it has one number for each cell"
-                                            : "it has " + in_words(field->dimensions));
-  const auto indices = find_indices(field->dimensions, choices);
-  if (count_left(*field, indices) > 1)
-    refuse_path(file.path(),
-                "{} has several numbers for each cell: {}; choose one index of each: {}", name,
-                in_words(field->dimensions), example(*field, indices));
-  read_values(file, {of_cells}, *field, indices);
+  const std::vector<std::int64_t> indices =
+      named(file.path(), [&] { return find_all_indices(name, field->dimensions, choices); });
+  read_values(file, {of_cells}, *field, {indices.begin(), indices.end()});
   return *std::move(field);
 }
 

@@ -246,15 +246,8 @@ def _at(field, name, names, at):
     if names is None:
         names = [f"axis {k + (k >= field.axis)}" for k in range(len(others))]
     dimensions = [(dim, size, False) for dim, size in zip(names, others)]
-    indices = _calotte.find_indices(dimensions, at)
-    for dim, index in at:
-        if not any(found is not None for found in _calotte.find_indices(dimensions, [(dim, index)])):
-            raise Error(f"{name} has no dimension {dim}; "
-                        + (f"it has {', '.join(names)}" if names else "it has one number for each cell"))
-    left = [k for k, index in enumerate(indices) if index is None and others[k] > 1]
-    if left:
-        example = ", ".join(f'"{names[k]}": 0' for k in left)
-        raise Error(f"{name} has {', '.join(f'{names[k]} ({others[k]})' for k in left)} for each cell; choose one number, "
-                    f"as with at={{{example}}}")
-    index = tuple(0 if index is None else index for index in indices)
+    try:
+        index = tuple(_calotte.find_all_indices(name, dimensions, at))
+    except Error as error:
+        raise Error(str(error).replace("choose one index of each:", "choose one index of each by at:")) from None
     return np.ascontiguousarray(field.by_cell.reshape(-1, *others)[(slice(None), *index)])

@@ -310,9 +310,10 @@ void add_contents(py::module_& module) {
   add_shapes(module);
   add_content(module);
   module.def("read", &read);
-  module.def("find_indices", [](const Dimensions& dimensions, const Choices& at) {
-    return find_indices(dimensions_of(dimensions), indices_of(at));
-  });
+  module.def("find_all_indices",
+             [](const std::string& name, const Dimensions& dimensions, const Choices& at) {
+               return find_all_indices(name, dimensions_of(dimensions), indices_of(at));
+             });
   module.def("neighbours", &neighbours_of);
   module.def("cells_of_file", &cells_of);
 }
