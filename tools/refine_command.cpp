@@ -110,7 +110,7 @@ WidthDemand demand_of(const RefineRequest& request, const MeshFile& file) {
   const Surface& surface = file.mesh->surface;
   WidthDemand demand;
   WidthWords words = request.widths;
-  words.radius = radius_of_widths(file, words);
+  words.radius = radius_of_widths(radius_km(file, {}), file.sphere_radius, words.radius);
   demand.radius_km = words.radius;
   if (request.region.empty()) {
     demand.widths = read_widths(words, surface).widths;

@@ -29,6 +29,15 @@ struct WidthDemand {
   double radius_km = earth_radius_km; ///< of the sphere that widths refer to; > 0 and finite
 };
 
+/// The radius to which widths and lengths in km refer in a change of a mesh of a file, for
+/// WidthDemand: that of the file's planet, unless the mesh is of the unit sphere, and the planet is
+/// the Earth or another radius is given.
+/// \param planet_km of the file, see MeshFile::planet_radius, if it is known.
+/// \param sphere_radius of the mesh, see MeshFile::sphere_radius.
+/// \param given_km that the user gives; earth_radius_km stands for none.
+double radius_of_widths(std::optional<double> planet_km, double sphere_radius,
+                        double given_km = earth_radius_km);
+
 /// Options of refine() and coarsen().
 struct RefineOptions {
   /// Share of a cell's width within which the demand is met: such cells stay where they are, if

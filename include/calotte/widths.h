@@ -8,6 +8,7 @@
 #include <calotte/surface.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -18,6 +19,11 @@ namespace calotte {
 
 /// The radius of the Earth in km, the default of the functions below.
 inline constexpr double earth_radius_km = 6371;
+
+/// Whether a radius in km is the Earth's within 1%, by which models of it differ.
+inline bool is_earth(double radius_km) {
+  return std::abs(radius_km - earth_radius_km) <= 0.01 * earth_radius_km;
+}
 
 /// Cell widths h at nodes, prepared for evaluation at any point: those of a raster, or of rules,
 /// see width_field(). They are distances between the centres of neighbouring cells, here and below

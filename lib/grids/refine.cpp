@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -436,6 +437,13 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
 
 } // namespace
 } // namespace grids_detail
+
+double radius_of_widths(std::optional<double> planet_km, double sphere_radius, double given_km) {
+  const bool given = given_km != earth_radius_km;
+  if (planet_km && (sphere_radius != 1 || (!given && !is_earth(*planet_km))))
+    return *planet_km;
+  return given_km;
+}
 
 ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options) {
   return grids_detail::changed(mesh, demand, grids_detail::Way::finer, options);

@@ -495,6 +495,20 @@ TEST_CASE("meshes of irregular cells change, too [slow]") {
   }
 }
 
+TEST_CASE(
+    "lengths refer to the planet of a file, or on the unit sphere to a radius that is given") {
+  constexpr double mars = 3389.5, model = 6371.229;
+  CHECK(radius_of_widths({}, 1) == earth_radius_km);
+  CHECK(radius_of_widths({}, 1, mars) == mars);
+  CHECK(radius_of_widths(model, 1) == earth_radius_km); // that of widths without another
+  CHECK(radius_of_widths(model, 6371229) == model);
+  CHECK(radius_of_widths(mars, 1) == mars);
+  CHECK(radius_of_widths(mars, 1, 5000) == 5000);
+  CHECK(radius_of_widths(mars, 3389500, 5000) == mars);
+  CHECK(is_earth(6371 * 1.0099));
+  CHECK(!is_earth(6371 * 1.0101));
+}
+
 TEST_CASE("demands that cannot be") {
   const Mesh& base = uniform_sphere();
   const auto refused = [&](const WidthDemand& demand, const std::string& what,

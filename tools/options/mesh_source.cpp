@@ -154,14 +154,6 @@ std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
   return widths.in_km() ? std::optional(widths.radius) : std::nullopt;
 }
 
-double radius_of_widths(const MeshFile& file, const WidthWords& widths) {
-  const std::optional<double> planet = radius_km(file, {});
-  const bool given = widths.radius != earth_radius_km;
-  if (planet && (file.sphere_radius != 1 || (!given && !is_earth(*planet))))
-    return *planet;
-  return widths.radius;
-}
-
 const MeshField* find_cell_field(const MeshFile& file, const std::string& name,
                                  std::int64_t cells) {
   const auto found = std::ranges::find_if(file.fields, [&](const MeshField& field) {

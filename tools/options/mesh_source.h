@@ -63,10 +63,6 @@ std::string words_of(const std::vector<FieldIndex>& indices);
 std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
                                 std::optional<double> metres = {});
 
-/// The radius to which widths and lengths in km refer in a change of a mesh: that of the sphere of
-/// a NetCDF file; on the unit sphere --earth-radius, unless the file is of another planet.
-double radius_of_widths(const MeshFile& file, const WidthWords& widths);
-
 /// The field of a name with a number for each of so many cells; null if the file has none.
 const MeshField* find_cell_field(const MeshFile& file, const std::string& name, std::int64_t cells);
 

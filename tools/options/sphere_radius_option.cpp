@@ -9,8 +9,6 @@
 
 #include <CLI/App.hpp>
 
-#include <cmath>
-
 namespace calotte::tools {
 
 void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const std::string& help) {
@@ -33,11 +31,6 @@ void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const s
 
 void require_sphere_radius(double metres) {
   require_positive("--sphere-radius", metres, "one such as 6371229, in metres");
-}
-
-bool is_earth(double radius_km) {
-  constexpr double tolerance = 0.01; // models of the earth differ by less
-  return std::abs(radius_km - earth_radius_km) <= tolerance * earth_radius_km;
 }
 
 void warn_of_radius(double metres, const std::string& origin) {

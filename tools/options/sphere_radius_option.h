@@ -21,9 +21,6 @@ void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const s
 /// \throws Error invalid_argument for a radius that is not positive and finite.
 void require_sphere_radius(double metres);
 
-/// Whether a radius is the earth's within 1%.
-bool is_earth(double radius_km);
-
 /// Warns of a radius of 1000 to 10 000 m, which may be in km.
 /// \param origin the option or the file that gives it.
 void warn_of_radius(double metres, const std::string& origin);

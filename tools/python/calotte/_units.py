@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The unit in which people read lengths and areas: that of the command, see calotte info --units."""
 from . import _calotte
-from ._arguments import EARTH_RADIUS_KM
 
 
 def radius_of(grid):
@@ -16,11 +15,8 @@ def radius_of(grid):
 
 def radius_of_widths(mesh):
     """km, to which lengths refer in a change of a mesh: as of calotte refine."""
-    planet, content = radius_of(mesh), vars(mesh).get("_content")
-    unit_sphere = content is None or content.sphere_radius == 1
-    if planet is None or (unit_sphere and abs(planet - EARTH_RADIUS_KM) <= 0.01 * EARTH_RADIUS_KM):
-        return EARTH_RADIUS_KM
-    return planet
+    content = vars(mesh).get("_content")
+    return _calotte.radius_of_widths(radius_of(mesh), 1 if content is None else content.sphere_radius)
 
 
 def unit_of(grid, units=None, earth_radius=None):

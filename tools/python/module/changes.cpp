@@ -91,6 +91,9 @@ auto runner(Change* change) {
 } // namespace
 
 void add_changes(py::module_& module) {
+  module.def("radius_of_widths", [](std::optional<double> planet_km, double sphere_radius) {
+    return radius_of_widths(planet_km, sphere_radius);
+  });
   py::class_<WidthDemand>(module, "WidthDemand")
       .def(py::init<>())
       .def_readwrite("widths", &WidthDemand::widths)
