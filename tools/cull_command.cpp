@@ -42,6 +42,8 @@ struct CullRequest {
   double land_fraction = CullOptions{}.land_fraction;
   double least_area = 0; ///< km^2 of the Earth
   bool no_fill = false;
+  std::optional<double> sea_ice_latitude;
+  std::string land_mesh;
 
   std::vector<std::string> inputs() const {
     std::vector<std::string> all{source, field_file, raster, heights};
@@ -59,6 +61,8 @@ void require_request(const CullRequest& request) {
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
       request.barriers.empty())
     refuse("there is no land; give --land FILE, --raster FILE, --field NAME or --barrier FILE");
+  if (!request.land_mesh.empty())
+    require_mpas_name(request.land_mesh);
   if (!request.topography.empty() && !request.topography.ends_with(".nc"))
     refuse_path(request.topography,
                 "the sea floor is written to NetCDF; give a name that ends in .nc");
@@ -67,6 +71,7 @@ void require_request(const CullRequest& request) {
     refuse("--topography needs heights; give --heights FILE, or --raster FILE with heights");
   const CellMapPaths maps = cell_map_paths(request.cell_map);
   require_outputs({{"grid", request.output},
+                   {"grid of all other cells", request.land_mesh},
                    {"mask", request.mask},
                    {"topography", request.topography},
                    {"map of cells", maps.forward},
@@ -114,6 +119,8 @@ CullOptions options_of(const CullRequest& request) {
   options.passages = read_all_lines(request.passages);
   options.barriers = read_all_lines(request.barriers);
   options.fill = !request.no_fill;
+  options.sea_ice_latitude = request.sea_ice_latitude;
+  options.land_path = request.land_mesh;
   options.seeds = points_of(request.seeds);
   options.mask_path = request.mask;
   options.cell_map_folder = request.cell_map;
@@ -174,9 +181,13 @@ std::string describe_cull(const CullRequest& request, const CullOptions& options
     lines += line("opened by passages", sea.opened) + stranded_passages(report, options);
   if (!request.no_fill)
     lines += line("filled, of one neighbour", sea.filled);
+  if (request.sea_ice_latitude)
+    lines += line("without an open vertex", sea.locked);
   lines += line("parts of the sea", sea.parts);
   lines += line("cells in parts left out", sea.severed);
   lines += severed_parts(report);
+  if (!request.land_mesh.empty())
+    lines += message("{}: {} cells, all others\n", request.land_mesh, report.others);
   return lines +
          message("{}: {} cells, {} edges, {} vertices\n", request.output, report.cells,
                  report.edges, report.vertices) +
@@ -313,6 +324,13 @@ void add_sea(CLI::App& command, CullRequest& request) {
                   "Point in the sea, in degrees. The grid holds what is connected with a seed. May "
                   "be repeated. Default: the largest part of the sea.")
       ->type_name("LON,LAT");
+  command
+      .add_option("--sea-ice-latitude", request.sea_ice_latitude,
+                  "From this latitude on towards both poles, such as 43, cells need a vertex whose "
+                  "three cells are sea, or else become land, repeatedly: the velocity of sea ice "
+                  "stands at vertices. Passages stay. Default: no such rule.")
+      ->type_name("DEGREES")
+      ->check(CLI::Range(0.0, 90.0));
   command.add_flag("--no-fill", request.no_fill,
                    "Keep cells with a single neighbour in the sea. Default: they become land, "
                    "repeatedly.");
@@ -337,9 +355,15 @@ void add_cull(CLI::App& app) {
         ->required();
     add_model(*command, request->model);
     command
+        ->add_option("--land-mesh", request->land_mesh,
+                     "MPAS file of all other cells, for the land of a coupled model. With the "
+                     "ocean it has each global cell once; --mask has the ids in both.")
+        ->type_name("FILE");
+    command
         ->add_option("--mask", request->mask,
                      "NetCDF file of masks by global cell: cullCell and regionCellMasks, as "
-                     "MPAS-Tools reads them, and landFraction.")
+                     "MPAS-Tools reads them, oceanCell and landCell, the 0-based ids in the ocean "
+                     "and among the other cells, or -1, and landFraction.")
         ->type_name("FILE");
     command
         ->add_option("--topography", request->topography,

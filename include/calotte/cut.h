@@ -127,8 +127,16 @@ struct CullOptions {
   std::vector<Points3> barriers = {}; ///< lines whose cells are land, unless on a passage
   /// Cells with a single neighbour in the sea become land, repeatedly. Default: true.
   bool fill = true;
+  /// Cells from this latitude on, degrees, towards both poles, need an open vertex for sea ice, see
+  /// SeaOptions::need_open_vertex; 0 to 90. Default: none.
+  std::optional<double> sea_ice_latitude = {};
   Points3 seeds = {}; ///< points in the sea, unit columns. Default: none, its largest part.
-  /// File for the culled cells: the variables cullCell and regionCellMasks (1 for land), and
+  /// MPAS file of all other cells, made as that of the sea: the land of a coupled model, and what
+  /// is left out of the sea. With that of the sea it has each cell of the source once. Default:
+  /// empty, no file.
+  std::string land_path = {};
+  /// File for the culled cells: the variables cullCell and regionCellMasks (1 for land), oceanCell
+  /// and landCell (the 0-based id among the cells of the sea, of the others, or -1), and
   /// landFraction if there is a coast or a raster (of both the greater), by cell of the source.
   /// Default: empty, no file.
   std::string mask_path = {};
@@ -152,9 +160,10 @@ struct CullReport {
   std::int64_t vertices = 0;                           ///< of the new mesh
   double sphere_radius = 1;                            ///< of the new file
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of the new file
-  std::int64_t land = 0; ///< cells that coast, raster and field make land
-  SeaReport sea;         ///< decisions of sea_cells()
-  Points3 severed;       ///< the middle of each of sea.severed_parts, unit columns
+  std::int64_t land = 0;   ///< cells that coast, raster and field make land
+  std::int64_t others = 0; ///< cells of the file of all other cells
+  SeaReport sea;           ///< decisions of sea_cells()
+  Points3 severed;         ///< the middle of each of sea.severed_parts, unit columns
   /// Passages on land that reach no sea, as where a gulf is narrower than cells: their indices.
   std::vector<std::int64_t> stranded_passages = {};
   std::vector<std::string> left_out; ///< variables, as CutReport::left_out

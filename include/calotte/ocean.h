@@ -74,6 +74,10 @@ struct SeaOptions {
   std::vector<std::int32_t> opened = {}; ///< cells that are sea, even on land. Default: none.
   std::vector<std::int32_t> closed = {}; ///< cells that are land, unless opened. Default: none.
   bool fill = true; ///< cells with a single neighbour in the sea, or none, become land, repeatedly
+  /// n flags: 1 for cells that become land, repeatedly, without an open vertex, which is one whose
+  /// three cells are sea. The velocity of sea ice stands at vertices: without an open one, ice
+  /// cannot leave. Opened cells stay. Default: none.
+  std::vector<std::uint8_t> need_open_vertex = {};
   /// The sea is what is connected with one of these cells. Default: none, the largest part.
   std::vector<std::int32_t> seeds = {};
 };
@@ -89,6 +93,7 @@ struct SeaReport {
   std::int64_t opened = 0;  ///< cells of land that became sea
   std::int64_t closed = 0;  ///< cells of the sea that became land
   std::int64_t filled = 0;  ///< cells with a single neighbour in the sea, or none
+  std::int64_t locked = 0;  ///< other cells without an open vertex, which need one
   std::int64_t parts = 0;   ///< of the sea before the others were left out
   std::int64_t severed = 0; ///< cells in parts without a seed
   /// The largest parts without a seed, at most max_severed_parts, largest first.
@@ -107,10 +112,12 @@ struct SeaCells {
 /// The cells of a connected sea. Closed and opened cells are decided first, then filled cells, then
 /// the parts without a seed. A filled cell is on no path between two others, so that an opened
 /// passage stays open.
-/// \param cells_on_cell the n cells' 0-based neighbours; -1 for a missing one, which counts as
-///        land.
+/// \param cells_on_cell the n cells' 0-based neighbours, in their order around the cell; -1 for a
+///        missing one, which counts as land.
 /// \param land n flags: 1 for land.
-/// \throws Error invalid_argument, if no cell is sea, and naming the first seed that is on land.
+/// \throws Error invalid_argument, if no cell is sea, naming the first seed that is on land, and
+/// for
+///         another number of flags.
 SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& land,
                    const SeaOptions& options = {});
 

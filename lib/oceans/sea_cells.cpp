@@ -27,30 +27,63 @@ std::int64_t set(const std::vector<std::int32_t>& cells, std::int32_t value, Ids
   return changed;
 }
 
+/// Turns cells of the sea into land that cannot stay, and then those that cannot without them.
+/// \param cannot_stay(cell) of a cell of the sea. \returns the number of cells.
+template <class CannotStay>
+std::int64_t remove(const IdLists& cells_on_cell, Ids& of_cell, const CannotStay& cannot_stay) {
+  std::vector<std::int32_t> stack;
+  const auto look_at = [&](std::int32_t cell) {
+    if (of_cell[cell] == sea && cannot_stay(cell))
+      stack.push_back(cell);
+  };
+  for (std::int32_t cell = 0; cell < of_cell.size(); ++cell)
+    look_at(cell);
+  std::int64_t removed = 0;
+  while (!stack.empty()) {
+    const std::int32_t cell = stack.back();
+    stack.pop_back();
+    removed += of_cell[cell] == sea;
+    of_cell[cell] = land;
+    for (const std::int32_t other : cells_on_cell[cell])
+      if (other >= 0)
+        look_at(other);
+  }
+  return removed;
+}
+
 /// Turns cells of the sea with fewer than two neighbours in the sea into land. \returns their
 /// number.
 std::int64_t fill(const IdLists& cells_on_cell, Ids& of_cell) {
-  const auto is_dead_end = [&](std::int32_t cell) {
+  return remove(cells_on_cell, of_cell, [&](std::int32_t cell) {
     int neighbours = 0;
     for (const std::int32_t other : cells_on_cell[cell])
       neighbours += other >= 0 && of_cell[other] == sea;
-    return of_cell[cell] == sea && neighbours < 2;
-  };
-  std::vector<std::int32_t> ends;
-  for (std::int32_t cell = 0; cell < of_cell.size(); ++cell)
-    if (is_dead_end(cell))
-      ends.push_back(cell);
-  std::int64_t filled = 0;
-  while (!ends.empty()) {
-    const std::int32_t cell = ends.back();
-    ends.pop_back();
-    filled += of_cell[cell] == sea;
-    of_cell[cell] = land;
-    for (const std::int32_t other : cells_on_cell[cell])
-      if (other >= 0 && is_dead_end(other))
-        ends.push_back(other);
-  }
-  return filled;
+    return neighbours < 2;
+  });
+}
+
+/// Turns cells that need an open vertex and have none into land, but for opened ones. \returns
+/// their number.
+std::int64_t lock(const IdLists& cells_on_cell, const SeaOptions& options, Ids& of_cell) {
+  const std::vector<std::uint8_t>& flags = options.need_open_vertex;
+  if (flags.empty())
+    return 0;
+  require(std::ssize(flags) == of_cell.size(), "there are {} flags for {} cells", flags.size(),
+          of_cell.size());
+  std::vector<std::uint8_t> stays(flags.size());
+  for (const std::int32_t cell : options.opened)
+    stays[static_cast<std::size_t>(cell)] = 1;
+  const auto is_sea = [&](std::int32_t cell) { return cell >= 0 && of_cell[cell] == sea; };
+  return remove(cells_on_cell, of_cell, [&](std::int32_t cell) {
+    const auto i = static_cast<std::size_t>(cell);
+    if (flags[i] == 0 || stays[i] != 0)
+      return false;
+    const auto around = cells_on_cell[cell];
+    for (std::size_t k = 0; k < around.size(); ++k)
+      if (is_sea(around[k]) && is_sea(around[k == 0 ? around.size() - 1 : k - 1]))
+        return false;
+    return true;
+  });
 }
 
 /// The parts of the sea.
@@ -152,6 +185,9 @@ SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>
   counts.opened = set(options.opened, sea, of_cell);
   if (options.fill)
     counts.filled = fill(cells_on_cell, of_cell);
+  counts.locked = lock(cells_on_cell, options, of_cell);
+  if (options.fill && counts.locked > 0)
+    counts.filled += fill(cells_on_cell, of_cell);
   const SeaParts parts = find_parts(cells_on_cell, of_cell);
   require(!parts.size.empty(),
           "no cell is sea; check the polygons, the values of the raster, or the bounds of the "

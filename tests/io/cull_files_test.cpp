@@ -12,7 +12,9 @@
 
 #include <calotte/cut.h>
 #include <calotte/delaunay.h>
+#include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/mesh_file.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
@@ -342,6 +344,43 @@ TEST_CASE("a cull that fails leaves no file, whichever output fails") {
   }
   cull(source, out / "ocean.nc", options);
   CHECK(out.files() == 5); // the grid, its graph, the mask and two maps
+}
+
+TEST_CASE("the ocean and all other cells have each global cell once, and the mask its ids") {
+  const Scratch scratch;
+  const std::string source = scratch / "global.nc", target = scratch / "ocean.nc",
+                    land = scratch / "land.nc", mask = scratch / "mask.nc";
+  write_global(scratch, source, {.cells = 2000});
+  CullOptions options;
+  options.field = {"", "zCell", -0.9, 0.2};
+  options.mask_path = mask;
+  options.land_path = land;
+  const CullReport report = cull(source, target, options);
+  CHECK(report.cells + report.others == 2000);
+  const Contents masks = contents_of(mask);
+  for (const auto& [path, name] : {std::pair(target, "oceanCell"), std::pair(land, "landCell")}) {
+    const std::int64_t cells = path == target ? report.cells : report.others;
+    CHECK(check_file(path, read_mesh_file(path)).empty());
+    const Contents file = contents_of(path);
+    for (std::int64_t i = 0; i < cells; ++i) {
+      const auto base =
+          static_cast<std::size_t>(file.at("mapCulledToBaseCell", static_cast<std::size_t>(i)));
+      CHECK(masks.at(name, base) == static_cast<double>(i));
+      CHECK(masks.at("cullCell", base) == (path == target ? 0 : 1));
+    }
+    std::int64_t found = 0;
+    for (std::size_t i = 0; i < 2000; ++i)
+      found += masks.at(name, i) >= 0 ? 1 : 0;
+    CHECK(found == cells);
+  }
+  const Scratch out; // both appear, or none
+  options.mask_path.clear();
+  options.land_path = out / "land.nc";
+  CHECK_THROWS_AS(cull(source, out / "absent/ocean.nc", options), Error);
+  CHECK(out.files() == 0);
+  options.land_path = out / "absent/land.nc";
+  CHECK_THROWS_AS(cull(source, out / "ocean.nc", options), Error);
+  CHECK(out.files() == 0);
 }
 
 // Slow: 163 842 cells.

@@ -504,3 +504,45 @@ TEST_CASE("coasts of GSHHG: segments of bins join to polygons; only land counts"
   raster.create(path, NC_DOUBLE, [](int) {});
   CHECK(has(message_of([&] { read_coast(path); }), "give it as a raster, if it is one"));
 }
+
+TEST_CASE("cells that need an open vertex have one, to the last, but for passages") {
+  const Voronoi cells = tessellation_of(fibonacci_sphere(4000));
+  std::vector<std::uint8_t> land, flags;
+  for (Eigen::Index i = 0; i < cells.cells.cols(); ++i) {
+    const auto at = cells.cells.col(i);
+    const double ridge = std::sin(9 * at.x()) * std::sin(11 * at.y() + 7 * at.z()) + 0.3 * at.z();
+    land.push_back(ridge > 0.12 ? 1 : 0);
+    flags.push_back(std::abs(at.z()) > 0.5 ? 1 : 0);
+  }
+  const auto locked = [&](const Ids& sea, std::int64_t i) {
+    const auto around = cells.cells_on_cell[i];
+    for (std::size_t k = 0; k < around.size(); ++k)
+      if (sea[around[k]] >= 0 && sea[around[(k + 1) % around.size()]] >= 0)
+        return false;
+    return true;
+  };
+  const auto count = [&](const Ids& sea) {
+    std::int64_t found = 0;
+    for (std::int64_t i = 0; i < sea.size(); ++i)
+      found += sea[i] >= 0 && flags[static_cast<std::size_t>(i)] != 0 && locked(sea, i) ? 1 : 0;
+    return found;
+  };
+  SeaOptions options;
+  const SeaCells before = sea_cells(cells.cells_on_cell, land, options);
+  CHECK(before.report.locked == 0);
+  REQUIRE(count(before.mask) > 0);
+  options.need_open_vertex = flags;
+  const SeaCells after = sea_cells(cells.cells_on_cell, land, options);
+  CHECK(count(after.mask) == 0);
+  CHECK(after.report.locked >= count(before.mask));
+  for (std::int64_t i = 0; i < after.mask.size(); ++i)
+    CHECK((after.mask[i] < 0 || neighbours_in(cells, after.mask, i) >= 2));
+  Points3 line(3, 2);
+  line << 0.6, -0.6, 0, 0, 0.8, 0.8; // over the pole
+  options.opened = cells_on_lines(cells, {line});
+  const SeaCells open = sea_cells(cells.cells_on_cell, std::vector<std::uint8_t>(4000, 1), options);
+  CHECK(open.report.locked == 0);
+  options.need_open_vertex.pop_back();
+  CHECK(message_of([&] { sea_cells(cells.cells_on_cell, land, options); }) ==
+        "there are 3999 flags for 4000 cells");
+}

@@ -167,10 +167,11 @@ std::string estimate_rows(const GridPlan& plan) {
       plan_row("  MPAS file (.nc)", data_size(plan.costs.mpas_file)) +
       plan_row("  triangles (.vtp)", data_size(plan.costs.vtp_file));
   if (const std::optional<double> step = step_of(plan))
-    lines += plan_row(
-        "MPAS-Atmosphere",
-        message("steps up to {} s; {} of memory with {} levels", formatted("%.3g", *step),
-                data_size(plan.of_model.of(static_cast<double>(plan.cells))), plan.of_model.levels));
+    lines +=
+        plan_row("MPAS-Atmosphere",
+                 message("steps up to {} s; {} of memory with {} levels", formatted("%.3g", *step),
+                         data_size(plan.of_model.of(static_cast<double>(plan.cells))),
+                         plan.of_model.levels));
   return lines;
 }
 

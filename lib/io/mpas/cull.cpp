@@ -12,10 +12,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace calotte {
 namespace io_detail {
@@ -27,6 +30,9 @@ void require_options(const CullOptions& options) {
   require(!options.coast.rings.empty() || options.raster.values.size() > 0 ||
               !options.field.variable.empty() || !options.barriers.empty(),
           "there is no land; give a coast, a raster, a field or a barrier");
+  require(!options.sea_ice_latitude ||
+              (*options.sea_ice_latitude >= 0 && *options.sea_ice_latitude <= 90),
+          "the latitude of sea ice is not from 0 to 90 degrees; give one such as 43");
   require(!options.sphere_radius ||
               (*options.sphere_radius > 0 && std::isfinite(*options.sphere_radius)),
           "the radius of the sphere is not positive and finite; give another");
@@ -96,9 +102,22 @@ Land find_land(const std::string& source, const SourceCells& source_cells,
   return land;
 }
 
-SeaOptions sea_options(const SourceCells& source_cells, const CullOptions& options) {
+/// Flags the cells from a latitude on, degrees, towards both poles.
+std::vector<std::uint8_t> flag_poleward(const MpasSource& source, double latitude) {
+  const double least = std::sin(latitude * std::numbers::pi / 180);
+  const Points3 generators = source.generators();
+  std::vector<std::uint8_t> flags;
+  for (const auto& at : generators.colwise())
+    flags.push_back(std::abs(at.z()) >= least * at.norm() ? 1 : 0);
+  return flags;
+}
+
+SeaOptions sea_options(const MpasSource& source, const SourceCells& source_cells,
+                       const CullOptions& options) {
   SeaOptions sea;
   sea.fill = options.fill;
+  if (options.sea_ice_latitude)
+    sea.need_open_vertex = flag_poleward(source, *options.sea_ice_latitude);
   if (!options.passages.empty())
     sea.opened = cells_on_lines(*source_cells.cells, options.passages);
   if (!options.barriers.empty())
@@ -166,6 +185,10 @@ void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file)
   const int cull = define("cullCell", NetcdfType::int32, {cells}, "1 for cells that are culled"),
             masks = define("regionCellMasks", NetcdfType::int32, {cells, regions},
                            "1 for cells of land");
+  const int ocean = define("oceanCell", NetcdfType::int32, {cells},
+                           "0-based id in the mesh of the sea, or -1"),
+            land = define("landCell", NetcdfType::int32, {cells},
+                          "0-based id in the mesh of all other cells, or -1");
   const int fraction = fractions.size() > 0 ? define("landFraction", NetcdfType::float64, {cells},
                                                      "fraction of each cell that is land")
                                             : -1;
@@ -177,6 +200,18 @@ void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file)
   };
   file.put(cull, flags);
   file.put(masks, flags);
+  const auto put_ids = [&](int variable, bool of_sea) {
+    std::int32_t next = 0;
+    Ids ids(sea.size());
+    for (Eigen::Index i = 0; i < sea.size(); ++i)
+      ids[i] = (sea[i] >= 0) == of_sea ? next++ : -1;
+    file.put(variable, NetcdfWriter::Fill<std::int32_t>(
+                           [&](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+                             std::copy_n(ids.data() + begin, end - begin, out);
+                           }));
+  };
+  put_ids(ocean, true);
+  put_ids(land, false);
   if (fraction >= 0)
     file.put(fraction,
              NetcdfWriter::Fill<double>([&](std::int64_t begin, std::int64_t end, double* out) {
@@ -212,6 +247,25 @@ private:
   std::optional<CellMapFiles> maps_;
 };
 
+/// Writes a part of the source. \param commit is called when the file is complete, before it
+/// appears. \returns the variables that are left out.
+std::vector<std::string> write_cells(const MpasSource& source, const MpasPart& part,
+                                     const std::string& path, const CullReport& report,
+                                     const CullOptions& options,
+                                     const std::function<void()>& commit) {
+  const ReversedEdges reversed = reversed_edges(source, part);
+  NetcdfSubset subset = make_subset(source, part);
+  add_reversals(source, part, reversed, subset);
+  add_kites(source, part, subset);
+  add_maps(part, subset);
+  add_radius(source, report.sphere_radius, subset);
+  add_vertex_order(source, part, report.vertex_order, subset);
+  set_sphere(source, report.sphere_radius, subset);
+  subset.dimensions = options.dimensions;
+  add_history(source, part, options.history, subset);
+  return write_part(source, part, subset, path, options.progress, commit);
+}
+
 } // namespace
 } // namespace io_detail
 
@@ -226,30 +280,31 @@ CullReport cull(const std::string& source_path, const std::string& target,
   CullReport report;
   report.land = std::count(land.flags.begin(), land.flags.end(), 1);
   const SeaCells decided =
-      sea_cells(source_cells.cells_on_cell, land.flags, sea_options(source_cells, options));
+      sea_cells(source_cells.cells_on_cell, land.flags, sea_options(source, source_cells, options));
   const Ids& sea = decided.mask;
   report.sea = decided.report;
   report.severed = middles(source, report.sea.severed_parts);
   report.stranded_passages = stranded_passages(source_cells, land, sea, options);
   const MpasPart part = select_part(source, sea);
-  const ReversedEdges reversed = reversed_edges(source, part);
-  NetcdfSubset subset = make_subset(source, part);
-  add_reversals(source, part, reversed, subset);
-  add_kites(source, part, subset);
-  add_maps(part, subset);
-  add_radius(source, radius, subset);
+  Companions companions(options, sea, land.fractions, part.cells);
   report.vertex_order = options.vertex_order.value_or(source.vertex_order());
-  add_vertex_order(source, part, report.vertex_order, subset);
-  set_sphere(source, radius, subset);
-  subset.dimensions = options.dimensions;
-  add_history(source, part, options.history, subset);
   report.sphere_radius = radius;
   report.cells = part.cells.count();
   report.edges = part.edges.count();
   report.vertices = part.vertices.count();
-  Companions companions(options, sea, land.fractions, part.cells);
-  report.left_out =
-      write_part(source, part, subset, target, options.progress, [&] { companions.commit(); });
+  const auto write_sea = [&] {
+    report.left_out =
+        write_cells(source, part, target, report, options, [&] { companions.commit(); });
+  };
+  if (options.land_path.empty()) {
+    write_sea();
+    return report;
+  }
+  report.others = sea.size() - report.cells;
+  require(report.others > 0, "all cells are sea; leave the file of the others out");
+  write_cells(source, select_part(source, Ids(-1 - sea.array())), options.land_path, report,
+              options,
+              write_sea); // either both files appear, or none
   return report;
 }
 
