@@ -137,6 +137,19 @@ TEST_CASE("rejected trials count in the time but not in the norms") {
   CHECK(end->seconds == doctest::Approx(2 * (301 - 100)));
 }
 
+TEST_CASE("the last descent of a graded run is expected to end as others did") {
+  CvtAction action{.kind = CvtAction::Kind::converge,
+                   .norm = Norm::l2,
+                   .tolerance = 1e-4,
+                   .max_iterations = 1000};
+  for (const double factor : {0.99, 1.01}) { // slow, and no decay yet
+    CHECK(forecast(decaying(12, factor), action)->seconds == doctest::Approx(2 * 13));
+    CHECK(forecast(decaying(400, factor), action)->seconds == doctest::Approx(2 * 5));
+  }
+  action.tolerance = 1e-6; // of a pure CVT
+  CHECK(forecast(decaying(12, 1.01), action)->seconds == doctest::Approx(2 * 988));
+}
+
 TEST_CASE("a converged level takes no more time") {
   CvtAction action{.norm = Norm::l2_scaled, .tolerance = 1e-6, .max_iterations = 1000};
   action.tolerance = 0.5;

@@ -274,8 +274,9 @@ WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
                           std::optional<double> limit, double scale) {
   // Widths that are larger on a sphere have the gradient of the same on a smaller one.
   WidthGradient steepest = largest_gradient(widths, words.radius / scale);
-  constexpr double at_tips =
-      1.5; // between nodes, at the tip of a cone, the field is that much steeper
+  // At the tip of a cone the interpolated field is sqrt(2) times as steep as the widths, and where
+  // tiles of two densities of nodes meet there up to sqrt(5) times.
+  constexpr double at_tips = 2.24;
   if (limit && steepest.slope < at_tips * *limit * scale)
     steepest.slope = std::min(steepest.slope, *limit * scale);
   return steepest;

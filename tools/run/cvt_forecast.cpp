@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,15 @@ Decay fit(std::span<const CvtIteration> iterations, Norm norm) {
   return {slope, mean_y + slope * (static_cast<double>(iterations.size()) - 1 - mean_x)};
 }
 
+/// The usual rest of a last descent to 1e-4, whose norm falls at its end: these took 19 to 24
+/// iterations in graded runs with 16 000 to 600 000 cells. Infinite for others.
+double usual_rest(const CvtProgress& progress, const CvtAction& action) {
+  constexpr double usual = 25, least = 5, tolerance = 1e-4;
+  if (action.kind != CvtAction::Kind::converge || action.tolerance < tolerance)
+    return std::numeric_limits<double>::infinity();
+  return std::max(usual - progress.iterations_of_descent, least);
+}
+
 } // namespace
 
 std::optional<Forecast> forecast(const CvtProgress& progress, const CvtAction& action) {
@@ -62,7 +72,9 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const CvtAction& a
     seconds +=
         (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
   // The trials of the last step may exceed the limit.
-  const double to_limit = std::max(action.max_iterations - progress.iterations_of_descent, 0);
+  const double to_limit =
+      std::min<double>(std::max(action.max_iterations - progress.iterations_of_descent, 0),
+                       usual_rest(progress, action));
   if (action.norm == Norm::none)
     return Forecast{seconds * to_limit, false};
   const Decay decay = fit(iterations, action.norm);
