@@ -123,11 +123,11 @@ namespace {
 
 /// The cells that fit the budget. \pre there is one, and no number of cells.
 /// \throws Error as plan_of().
-std::int64_t cells_of_budget(const CvtRequest& request, const CvtInput& input) {
+std::int64_t cells_of_budget(const CvtRequest& request, const CvtInput& input, Progress& progress) {
   const Budget budget = budget_of(request.budget, request.memory);
   if (budget.cells)
     return *budget.cells;
-  const Schedule demanded = plan_of(input);
+  const Schedule demanded = plan_of(input, progress);
   const double width = width_of_step(*budget.step, demanded.recipe.stop.least_spacing),
                factor = width / demanded.widths->least(),
                cells = demanded.implied_cells / (factor * factor);
@@ -185,7 +185,7 @@ CvtInput read_input(const CvtRequest& request, Progress& progress) {
     read_fixed(request, input);
   }
   if (!request.budget.empty())
-    recipe.cells = cells_of_budget(request, input);
+    recipe.cells = cells_of_budget(request, input, progress);
   return input;
 }
 
