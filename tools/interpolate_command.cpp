@@ -5,6 +5,7 @@
 #include "options/choice.h"
 #include "options/delaunay_options.h"
 #include "options/files.h"
+#include "options/mesh_source.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -27,6 +28,7 @@ namespace {
 struct InterpolateRequest {
   std::string source, mesh, target, output, weights, apply;
   std::vector<std::string> fields, categories, numbers;
+  std::vector<FieldIndex> at; ///< of dimensions of the fields
   Interpolation method = Interpolation::conservative;
   std::string method_word = "conservative";
   WeightsFormat format = WeightsFormat::esmf;
@@ -40,22 +42,25 @@ void require_request(const InterpolateRequest& request) {
     refuse("nothing to write; give -o FILE for fields, --weights FILE for weights, or both");
   if (!request.output.empty() && raster_of(request.target) && !request.output.ends_with(".nc"))
     refuse_path(request.output, "a raster is written to NetCDF; give a name that ends in .nc");
+  if (!request.output.empty())
+    require_field_format(request.output);
   if (!request.weights.empty() && !request.weights.ends_with(".nc"))
     refuse_path(request.weights, "weights are written to NetCDF; give a name that ends in .nc");
   require_outputs({{"fields", request.output}, {"weights", request.weights}},
                   {request.source, request.mesh, request.target, request.apply});
 }
 
-FieldGrid raster_or_mesh(const std::string& word, FieldChoice choice) {
+FieldGrid raster_or_mesh(const std::string& word, FieldChoice choice,
+                         const std::vector<FieldIndex>& at = {}) {
   if (std::optional<FieldGrid> raster = raster_of(word))
     return *std::move(raster);
-  return read_field_grid(word, choice);
+  return read_field_grid(word, choice, at);
 }
 
 FieldGrid source_of(const InterpolateRequest& request) {
   const FieldChoice choice = request.output.empty() ? FieldChoice::none : FieldChoice::all;
-  return request.mesh.empty() ? raster_or_mesh(request.source, choice)
-                              : read_field_grid(request.source, request.mesh, choice);
+  return request.mesh.empty() ? raster_or_mesh(request.source, choice, request.at)
+                              : read_field_grid(request.source, request.mesh, choice, request.at);
 }
 
 // ---- Fields
@@ -146,30 +151,68 @@ GridWeights weights_of(const InterpolateRequest& request, const FieldGrid& sourc
 
 // ---- Messages
 
-std::int64_t missing(const MeshField& field) {
-  return std::count_if(field.values.begin(), field.values.end(),
-                       [](double value) { return !(value == value); });
+/// The cells that have weights, and how many of their numbers are missing.
+struct Missing {
+  std::int64_t outside = 0; ///< cells without weights
+  std::int64_t cells = 0;   ///< of the others, those that lack a number
+  std::int64_t values = 0;  ///< numbers that these lack
+};
+
+/// \param field null for the cells outside alone.
+Missing count_missing(const Weights& weights, const MeshField* field) {
+  Missing missing;
+  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+    const bool outside = weights.outerIndexPtr()[i + 1] == weights.outerIndexPtr()[i];
+    missing.outside += outside ? 1 : 0;
+    if (outside || field == nullptr)
+      continue;
+    const std::int64_t lacks =
+        field->values.segment(i * field->count(), field->count()).array().isNaN().count();
+    missing.cells += lacks > 0 ? 1 : 0;
+    missing.values += lacks;
+  }
+  return missing;
 }
 
-std::int64_t rows_without_weights(const Weights& weights) {
-  std::int64_t count = 0;
-  for (Eigen::Index i = 0; i < weights.rows(); ++i)
-    count += weights.outerIndexPtr()[i + 1] == weights.outerIndexPtr()[i] ? 1 : 0;
-  return count;
+bool is_of_times(const MeshField& field) {
+  return field.dimensions.size() == 1 &&
+         (field.dimensions[0].name == "time" || field.dimensions[0].name == "Time");
+}
+
+/// "sst: 12 of 2562 cells have no value, at each time"; "" if no number is missing.
+std::string missing_words(const Weights& weights, const MeshField& field) {
+  const Missing missing = count_missing(weights, &field);
+  const std::int64_t count = field.count(), cells = weights.rows();
+  if (missing.values == 0)
+    return "";
+  std::string over;
+  for (const FieldDimension& dimension : field.dimensions)
+    over += message("{}{} ({})", over.empty() ? "" : ", ", dimension.name, dimension.size);
+  if (missing.values == count * missing.cells)
+    return message("{}: {} of {} {} no value{}", field.name, missing.cells, counted(cells, "cell"),
+                   missing.cells == 1 ? "has" : "have",
+                   count == 1           ? ""
+                   : is_of_times(field) ? ", at each time"
+                                        : ", at each index of " + over);
+  return message("{}: {} of {} {} no value, in all, over {}", field.name, missing.values,
+                 counted(count * cells, "number"), missing.values == 1 ? "has" : "have",
+                 is_of_times(field) ? counted(count, "time") : over);
 }
 
 std::string describe_weights(const InterpolateRequest& request, const FieldGrid& source,
                              const GridWeights& weights, const std::vector<MeshField>& fields) {
   std::string lines;
   const std::string& name = request.output.empty() ? request.weights : request.output;
-  const std::int64_t outside = rows_without_weights(weights.weights);
+  const std::int64_t outside = count_missing(weights.weights, nullptr).outside;
   if (outside > 0)
     lines += message("{}: {} {} outside of {}, and missing\n", name, counted(outside, "cell"),
                      outside == 1 ? "is" : "are", source.name);
   for (const MeshField& field : fields)
-    if (const std::int64_t more = missing(field) - outside * field.count(); more > 0)
-      lines += message("{}: {}: {} {} missing where {} has none\n", name, field.name,
-                       counted(more, "value"), more == 1 ? "is" : "are", source.name);
+    if (const std::string words = missing_words(weights.weights, field); !words.empty())
+      lines += request.min_cover > 0
+                   ? message("{}: {}, as {} has values for less than {} of the cell\n", name, words,
+                             source.name, request.min_cover)
+                   : message("{}: {}, as {} has none there\n", name, words, source.name);
   if (!request.weights.empty())
     lines += message("{}: {} weights from {} to {} cells\n", request.weights,
                      weights.weights.nonZeros(), weights.weights.cols(), weights.weights.rows());
@@ -200,6 +243,8 @@ void run(const InterpolateRequest& request) {
       lines += decide_categories(request, field);
     progress.stage("reading " + request.target);
     const FieldGrid target = raster_or_mesh(request.target, FieldChoice::none);
+    if (!request.output.empty())
+      require_storable(request.output, target, fields);
     progress.stage(message("weights from {} to {}", request.source, request.target));
     const GridWeights weights = weights_of(request, source, target);
     for (MeshField& field : fields)
@@ -227,6 +272,7 @@ void add_field_options(CLI::App& command, InterpolateRequest& request) {
       .add_option("--mesh", request.mesh,
                   "Mesh of the fields in SOURCE, where that holds none, such as a model's history.")
       ->type_name("FILE");
+  add_at(command, request.at);
   add("--fields", request.fields,
       "Names of the fields, with commas between them. Default: all at cells.");
   command

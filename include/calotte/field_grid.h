@@ -39,16 +39,18 @@ struct FieldGrid {
 /// lon_lat_boxes(). Fields of a raster have both dimensions, and any others, in any order. Values
 /// are what their attributes say: unpacked, unsigned, and NaN where they are missing or out of
 /// range, and where a mask leaves the cell out.
-/// \param choice of the fields.
-/// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name.
-FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all);
+/// \param choice of the fields at chosen indices.
+/// \param choices indices of the dimensions of fields, such as a time, for those that have them.
+/// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name; invalid_argument as
+///         find_indices(), and for an index that belongs to no field.
+FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all,
+                          const std::vector<FieldIndex>& choices = {});
 
 /// The same for a file of fields without their mesh, such as a model's history, and a file of the
 /// mesh. In the file of fields, nCells is the dimension of the cells, or else the only dimension of
 /// their number.
-/// \param choices indices of the dimensions of fields, such as a time, for those that have them.
 /// \throws Error as above; parse for a file without such a dimension; invalid_argument for a mesh
-///         file that is a raster, as find_indices(), and for a choice that belongs to no field.
+///         file that is a raster.
 FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
                           FieldChoice choice = FieldChoice::all,
                           const std::vector<FieldIndex>& choices = {});
@@ -94,6 +96,13 @@ void write_weights(const std::string& path, const GridWeights& weights, const Fi
 /// \throws Error parse: an address out of range, naming the link; other variables; file.
 GridWeights read_weights(const std::string& path);
 
+/// Requires that write_fields() can write fields of these names and dimensions, before their values
+/// are computed.
+/// \throws Error invalid_argument, for a name that the file needs, and for a format that cannot
+///         store the grid or a field.
+void require_storable(const std::string& path, const FieldGrid& grid,
+                      const std::vector<MeshField>& fields);
+
 /// Writes fields of a grid to a NetCDF file: of a raster with its coordinates and bounds; of a mesh
 /// with the longitudes and latitudes, or x and y, of its cells, in the order of its file. The
 /// dimension of the cells has the name that the mesh's format gives it, such as nCells. Another
@@ -103,8 +112,8 @@ GridWeights read_weights(const std::string& path);
 ///        dimensions are copied to the file: coordinates such as time and lev with bounds and
 ///        terms, times as text, scalar coordinates. An unlimited dimension stays so, where all have
 ///        it first.
-/// \throws Error invalid_argument for a field without a value for each cell, or a suffix of a
-///         format that cannot store the grid; file.
+/// \throws Error invalid_argument for a field without a value for each cell, and as
+///         require_storable(); file.
 void write_fields(const std::string& path, const FieldGrid& grid,
                   const std::vector<MeshField>& fields, const std::string& history = {},
                   const std::string& source = {});

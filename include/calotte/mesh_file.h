@@ -328,9 +328,16 @@ struct WrittenFields {
   std::vector<std::array<std::string, 2>> renamed;
 };
 
+/// Requires that write() stores all fields of the options. Values at cells may be missing: programs
+/// that compute them may ask before.
+/// \throws Error invalid_argument, naming the first field and the formats that store it; as
+///         format_of().
+void require_storable(const std::string& path, const MeshFile& file, const WriteOptions& options);
+
 /// Writes the contents of a file to another format. The cells keep their shapes: polygons go to
 /// formats of cells, and to those of triangles that can hold other faces (vtp, vtu, off, ply) where
-/// there is no mesh. Fields that the format cannot hold are left out. The planet stays that of the
+/// there is no mesh. Fields of the file that the format cannot hold are left out, those of the
+/// options are refused. The planet stays that of the
 /// file, unless the options have another. MPAS needs Voronoi cells: the
 /// polygons of an open mesh are written if each corner of three cells is the circumcentre of their
 /// centres, within a millionth of a cell's width. Density and fields at cells go along.

@@ -111,8 +111,10 @@ struct WriteOptions {
   DoubleVector site_density = {};
   /// Fields of the mesh, in its order. NetCDF formats store fields at cells, all but SCRIP at
   /// vertices, full MPAS at edges. VTK stores fields at cells and vertices, GeoJSON those at cells,
-  /// with one number for each. Other formats ignore them. In names, NetCDF formats replace
-  /// characters other than letters, digits and _.+-@ by _. Default: none.
+  /// with one number for each. Other formats have none. A field that the format cannot store is
+  /// refused, and so is one with the name of something that it has of its own, such as areaCell. In
+  /// names, NetCDF formats replace characters other than letters, digits and _.+-@ by _. Default:
+  /// none.
   std::vector<MeshField> fields = {};
   /// Dimensions of complete MPAS files besides those of the mesh and of fields: some models look
   /// for them, see models(). Default: none.
@@ -155,7 +157,8 @@ struct WriteOptions {
 ///        triangles counter-clockwise seen from outside.
 /// \throws Error invalid_argument for an unknown suffix, a format that does not support the mesh, a
 ///         radius out of range, an ill-formed density, or ids out of range; in the plane for
-///         Numbering::curve, and as voronoi(); all before any file is written;
+///         Numbering::curve, and as voronoi(); for a field that the format cannot store; all before
+///         any file is written;
 ///         not_finite or zero_vector as renumbered(); cancelled; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 
@@ -172,6 +175,10 @@ void write(const std::string& path, Mesh&& mesh, const WriteOptions& options = {
 ///         formats, .vtp has vtp and vtp_cells, .vtu has vtu and vtu_cells); for mpi_scvt under
 ///         another name.
 Format format_of(const std::string& path, Format option = Format::by_name);
+
+/// Requires a format that stores fields. \throws Error invalid_argument, naming those that do; as
+/// format_of().
+void require_field_format(const std::string& path, Format option = Format::by_name);
 
 /// All formats but by_name.
 const std::vector<FormatInfo>& formats();

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numeric>
 #include <random>
@@ -30,6 +31,7 @@ using calotte::MeshFile;
 using calotte::Numbering;
 using namespace calotte::test;
 using Names = std::vector<std::string>;
+constexpr auto npos = std::string::npos;
 
 namespace {
 
@@ -376,4 +378,59 @@ TEST_CASE("fields that do not fit are refused by name") {
   CHECK(problem(field, mesh) == "the field e has 11 values; give one for each of 12");
   CHECK(problem(field, open_meshes()[0].mesh) ==
         "the field e is at edges, which only closed meshes number; leave it out");
+}
+
+TEST_CASE("a field that is asked for is in the file, or is refused before any work") {
+  const Scratch scratch;
+  const Mesh mesh = calotte::delaunay(calotte::fibonacci_sphere(60));
+  const Eigen::Index sites = 60, vertices = 116;
+  std::vector<MeshField> fields{
+      {.name = "levels", .values = Eigen::VectorXd::Random(2 * sites), .dimensions = {{"lev", 2}}},
+      {.name = "corner",
+       .location = FieldLocation::vertices,
+       .values = Eigen::VectorXd::Random(vertices)},
+      {.name = "edge",
+       .location = FieldLocation::edges,
+       .values = Eigen::VectorXd::Random(sites + vertices - 2)}};
+  for (const char* name : {"f", "area", "site", "spacing", "quality", "degree", "areaCell",
+                           "latCell", "grid_area", "elementArea", "id", "x", "triangle"})
+    fields.push_back({.name = name, .values = Eigen::VectorXd::Random(sites)});
+  for (const char* name : {"area", "spacing", "triangle", "latVertex"})
+    fields.push_back({.name = name,
+                      .location = FieldLocation::vertices,
+                      .values = Eigen::VectorXd::Random(vertices)});
+  int stored = 0, refused = 0;
+  for (const calotte::FormatInfo& info : calotte::formats()) {
+    if (info.word.empty())
+      continue;
+    const std::string& name = info.names.front();
+    const std::string path = scratch / (name[0] == '.' ? "mesh" + name : name);
+    for (const MeshField& field : fields) {
+      CAPTURE(info.word);
+      CAPTURE(field.name);
+      calotte::WriteOptions options{.format = info.format, .numbering = Numbering::input};
+      options.fields = {field};
+      try {
+        calotte::write(path, mesh, options);
+      } catch (const calotte::Error& error) {
+        CHECK(error.code() == ErrorCode::invalid_argument);
+        const std::string text = error.what();
+        CHECK((text.find("; write ") != npos || text.find(", or write ") != npos ||
+               text.find("give the field another name") != npos));
+        CHECK(scratch.files() == 0);
+        ++refused;
+        continue;
+      }
+      ++stored;
+      const MeshFile file = calotte::read_mesh_file(path);
+      CHECK(std::ranges::any_of(file.fields, [&](const MeshField& found) {
+        return found.name == field.name && found.values.size() == field.values.size() &&
+               (found.values.array() == field.values.array()).all();
+      }));
+      for (const auto& entry : std::filesystem::directory_iterator(scratch.folder))
+        std::filesystem::remove(entry);
+    }
+  }
+  CHECK(stored > 50);
+  CHECK(refused > 50);
 }

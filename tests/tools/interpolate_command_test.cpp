@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -24,6 +25,20 @@ void make_grids(const Bench& bench) {
   use.values = DoubleVector::LinSpaced(288, 0, 287);
   steps.values = use.values;
   write_fields(bench.path("raster.nc"), raster, {height, use, steps});
+}
+
+/// times.nc: whole(time), missing at the north at each time, and ever(time, lev), missing at the
+/// first time alone.
+void make_times(const Bench& bench) {
+  const FieldGrid raster = *raster_of("24x12");
+  MeshField whole{.name = "whole", .dimensions = {{"time", 3}}, .leading = 1},
+      ever{.name = "ever", .dimensions = {{"time", 3}, {"lev", 2}}, .leading = 1};
+  whole.values = DoubleVector::LinSpaced(3 * 288, 0, 1);
+  whole.values.tail(3 * 72).setConstant(std::nan(""));
+  ever.values = DoubleVector::LinSpaced(6 * 288, 0, 1);
+  for (Eigen::Index i = 0; i < 72; ++i)
+    ever.values[6 * i] = std::nan("");
+  write_fields(bench.path("times.nc"), raster, {whole, ever});
 }
 
 } // namespace
@@ -57,6 +72,56 @@ TEST_CASE("interpolate: a raster onto a mesh and back, and its weights") {
       "interpolate mesh.nc 12x6 --weights scrip.nc --weights-format scrip --method linear");
   CHECK(weights.code == 0);
   CHECK(has(weights.out, " weights from 500 to 72 cells\n"));
+}
+
+TEST_CASE("interpolate: what is missing is counted by cell where it is the same at each time") {
+  const Bench bench;
+  make_grids(bench);
+  make_times(bench);
+  CHECK(bench.run("interpolate times.nc 24x12 -o a.nc --fields whole").out ==
+        "a.nc: whole: 72 of 288 cells have no value, at each time, as times.nc has none there\n"
+        "a.nc: whole at 288 cells, conservative\n");
+  CHECK(bench.run("interpolate times.nc 24x12 -o a.nc --fields ever").out ==
+        "a.nc: ever: 72 of 1728 numbers have no value, in all, over time (3), lev (2), as times.nc "
+        "has none there\n"
+        "a.nc: ever at 288 cells, conservative\n");
+  CHECK(bench.run("interpolate times.nc 24x12 -o a.nc --fields whole --min-cover 1").out ==
+        "a.nc: whole: 72 of 288 cells have no value, at each time, as times.nc has values for less "
+        "than 1 of the cell\n"
+        "a.nc: whole at 288 cells, conservative\n");
+  CHECK(bench.run("interpolate times.nc 24x12 -o a.nc --at time=0,lev=0").out ==
+        "a.nc: whole: 72 of 288 cells have no value, as times.nc has none there\n"
+        "a.nc: ever: 72 of 288 cells have no value, as times.nc has none there\n"
+        "a.nc: whole, ever at 288 cells, conservative\n");
+}
+
+TEST_CASE("interpolate: times go to formats that hold them, and one of them to others") {
+  const Bench bench;
+  make_grids(bench);
+  make_times(bench);
+  CHECK(bench.run("interpolate times.nc mesh.nc -o all.g --fields whole").code == 0);
+  CHECK(read_field_grid(bench.path("all.g")).fields.at(0).count() == 3);
+  for (const char* name : {"one.vtp", "one.vtu", "one.geojson"}) {
+    CHECK(bench
+              .run("interpolate times.nc mesh.nc --method nearest --at tim=-1 --fields whole -o " +
+                   std::string(name))
+              .code == 0);
+    const FieldGrid one = read_field_grid(bench.path(name));
+    const auto whole = std::ranges::find(one.fields, "whole", &MeshField::name);
+    REQUIRE(whole != one.fields.end());
+    CHECK(whole->count() == 1);
+  }
+  check_refusals(bench, "interpolate times.nc mesh.nc", R"(
+-o a.vtp --fields whole | 2 | a.vtp: the field whole has several numbers for each of the cells: time (3), and VTK holds one; choose an index of each (--at), or write .nc or .g
+-o a.vtu --at time=0 | 2 | a.vtu: the field ever has several numbers for each of the cells: lev (2), and VTK
+-o a.geojson | 2 | a.geojson: the field whole has several numbers
+-o a.vtp --at time=3 | 2 | time=3 is out of range: time has the indices 0 to 2
+-o a.vtp --at x=0 | 2 | times.nc: no field has a dimension x; there are time (3), lev (2)
+-o a.ply --at time=0,lev=0 | 2 | a.ply: PLY holds no fields; write .nc, .g, .vtp, .vtu or .geojson
+-o a.off | 2 | a.off: OFF holds no fields
+-o a.msh | 2 | a.msh: MSH holds no fields
+-o a.xyz | 2 | a.xyz: unknown suffix
+)");
 }
 
 TEST_CASE("interpolate: bad input is one line, and leaves no file") {

@@ -131,18 +131,22 @@ std::vector<FieldIndex> parse_indices(const std::string& text) {
 
 } // namespace
 
+void add_at(CLI::App& command, std::vector<FieldIndex>& indices) {
+  command
+      .add_option_function<std::string>(
+          "--at", [&indices](const std::string& text) { indices = parse_indices(text); },
+          "Indices of times and levels of fields, from 0 on: time=3,lev=0. "
+          "-1 is the last. A name may be a part of that of the dimension, in any case, such as lev "
+          "of nVertLevels")
+      ->type_name("NAME=INDEX,...");
+}
+
 void add_fields_of(CLI::App& command, MeshSource& source) {
   command
       .add_option("--mesh", source.mesh,
                   "Mesh of the fields in MESH, if that holds none, as a history")
       ->type_name("FILE");
-  command
-      .add_option_function<std::string>(
-          "--at", [&source](const std::string& text) { source.at = parse_indices(text); },
-          "Indices of times and levels of fields, from 0 on: time=3,lev=0. "
-          "-1 is the last. A name may be a part of that of the dimension, in any case, such as lev "
-          "of nVertLevels")
-      ->type_name("NAME=INDEX,...");
+  add_at(command, source.at);
 }
 
 std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,

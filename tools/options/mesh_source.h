@@ -41,6 +41,9 @@ void add_plane(CLI::App& command, MeshSource& source,
                const std::vector<std::string>& of_sphere = {},
                const std::vector<std::string>& of_plane = {});
 
+/// Adds --at, for commands that take fields.
+void add_at(CLI::App& command, std::vector<FieldIndex>& indices);
+
 /// Adds --mesh and --at, for commands that show fields.
 void add_fields_of(CLI::App& command, MeshSource& source);
 

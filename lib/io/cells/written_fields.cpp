@@ -119,11 +119,14 @@ void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<i
                             : make_contents<double>(field, filled));
 }
 
-bool can_store(const NetcdfMeshNames& names, const MeshField& field) {
+FieldFault find_fault(const NetcdfMeshNames& names, const MeshField& field) {
   const bool has_dimension = field.location == FieldLocation::cells   ? !names.cells.empty()
                              : field.location == FieldLocation::edges ? !names.edges.empty()
                                                                       : !names.vertices.empty();
-  return has_dimension && (is_kept_as_mask(names, field) || !is_name_of_mesh(names, field.name));
+  if (!has_dimension)
+    return FieldFault::location;
+  return is_kept_as_mask(names, field) || !is_name_of_mesh(names, field.name) ? FieldFault::none
+                                                                              : FieldFault::name;
 }
 
 void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FileLocations& locations,

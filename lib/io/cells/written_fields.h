@@ -49,8 +49,17 @@ void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<i
 /// sign at the start.
 std::string netcdf_name(std::string_view name);
 
-/// Whether a NetCDF format can store a field. Fields at edges require a format with edges.
-bool can_store(const NetcdfMeshNames& names, const MeshField& field);
+/// Why a format cannot store a field.
+enum class FieldFault {
+  none,
+  no_fields, ///< it stores none
+  location,  ///< none there
+  several,   ///< not several numbers for each cell, edge or vertex
+  name       ///< it has something of its own under that name
+};
+
+/// The fault of a field in a NetCDF format. Fields at edges require a format with edges.
+FieldFault find_fault(const NetcdfMeshNames& names, const MeshField& field);
 
 /// Declares the fields of the options whose location has a dimension. Skips masks, and fields with
 /// the name of a variable of the mesh.

@@ -220,18 +220,19 @@ std::int64_t FieldGrid::size() const {
   return mesh.polygons ? mesh.polygons->size() : mesh.mesh ? mesh.mesh->points.cols() : 0;
 }
 
-FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
+FieldGrid read_field_grid(const std::string& path, FieldChoice choice,
+                          const std::vector<FieldIndex>& choices) {
   using namespace io_detail;
   if (is_netcdf_file(path)) {
     const NetcdfReader file(path);
     if (const std::optional<RasterAxes> axes = raster_axes(file)) {
-      FieldGrid raster = read_raster_grid(file, *axes, choice);
+      FieldGrid raster = read_raster_grid(file, *axes, choice, choices);
       require_records(path, raster, choice);
       return raster;
     }
   }
   FieldGrid grid{.name = path};
-  grid.mesh = read_mesh_file(path, nullptr, choice);
+  grid.mesh = read_mesh_file(path, nullptr, choice, choices);
   grid.fields = std::move(grid.mesh.fields);
   grid.ignored = std::move(grid.mesh.ignored);
   std::erase_if(grid.fields, [&](const MeshField& field) {

@@ -65,11 +65,12 @@ LonLatBoxes read_boxes(const NetcdfReader& file, const RasterAxes& axes) {
 
 } // namespace
 
-FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, FieldChoice choice) {
+FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, FieldChoice choice,
+                           const std::vector<FieldIndex>& choices) {
   FieldGrid grid{.name = file.path()};
   grid.boxes = read_boxes(file, axes);
   read_fields_on(file, {axes.latitude, axes.longitude}, {axes.latitude, axes.longitude}, choice,
-                 grid.fields, grid.ignored);
+                 grid.fields, grid.ignored, choices);
   return grid;
 }
 

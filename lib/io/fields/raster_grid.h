@@ -7,9 +7,12 @@
 
 #include <calotte/field_grid.h>
 
+#include <vector>
+
 namespace calotte::io_detail {
 
 /// \throws Error as read_field_grid().
-FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, FieldChoice choice);
+FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, FieldChoice choice,
+                           const std::vector<FieldIndex>& choices);
 
 } // namespace calotte::io_detail

@@ -184,6 +184,17 @@ std::vector<Carried> carried_from(const std::string& source, const std::vector<M
 } // namespace
 } // namespace io_detail
 
+void require_storable(const std::string& path, const FieldGrid& grid,
+                      const std::vector<MeshField>& fields) {
+  using namespace io_detail;
+  if (suffix_of(path) == ".nc")
+    return require_free_names(path, fields);
+  require(!grid.boxes, "{}: a raster is written to NetCDF; give a name that ends in .nc", path);
+  WriteOptions options;
+  options.fields = fields;
+  require_storable(path, grid.mesh, options);
+}
+
 void write_fields(const std::string& path, const FieldGrid& grid,
                   const std::vector<MeshField>& fields, const std::string& history,
                   const std::string& source) {
@@ -193,16 +204,15 @@ void write_fields(const std::string& path, const FieldGrid& grid,
                 field.values.size() == grid.size() * field.count(),
             "the field {} does not have a value for each of {} cells; interpolate it to {}",
             field.name, grid.size(), grid.name);
+  require_storable(path, grid, fields);
   WriteOptions options;
   options.history = history;
   options.sphere_radius = grid.boxes ? 1 : grid.mesh.sphere_radius;
   if (suffix_of(path) != ".nc") {
-    require(!grid.boxes, "{}: a raster is written to NetCDF; give a name that ends in .nc", path);
     options.fields = fields;
     write(path, grid.mesh, options);
     return;
   }
-  require_free_names(path, fields);
   std::vector<MeshField> named = fields;
   const std::vector<Carried> carried = carried_from(source, fields, replace_names(named));
   if (grid.boxes)

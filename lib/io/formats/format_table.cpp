@@ -2,15 +2,19 @@
 #include "io/formats/format_table.h"
 
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/cells/cell_rows.h"
+#include "io/cells/field_index.h"
 #include "io/cells/model_grid.h"
-#include "io/cells/written_fields.h"
 #include "io/formats/formats.h"
 #include "io/formats/write_mesh.h"
 #include "io/netcdf/netcdf_reader.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace calotte::io_detail {
@@ -87,29 +91,50 @@ Points3 vertex_lines(const InputFile& file) { return read_points(file.path); }
 
 // ---- Fields
 
-bool in_mpas(const MeshField& field) { return can_store(mpas_names(), field); }
-bool in_minimal_mpas(const MeshField& field) {
-  return field.location != FieldLocation::edges && in_mpas(field);
+FieldFault in_mpas(const MeshField& field) { return find_fault(mpas_names(), field); }
+FieldFault in_minimal_mpas(const MeshField& field) {
+  return field.location == FieldLocation::edges ? FieldFault::location : in_mpas(field);
 }
-bool in_ugrid(const MeshField& field) { return can_store(ugrid_names(true), field); }
-bool in_ugrid_triangles(const MeshField& field) { return can_store(ugrid_names(false), field); }
-bool in_scrip(const MeshField& field) { return can_store(scrip_names(), field); }
-bool in_esmf(const MeshField& field) { return can_store(esmf_names(), field); }
-bool in_exodus(const MeshField& field) { return can_store(exodus_names(), field); }
+FieldFault in_ugrid(const MeshField& field) { return find_fault(ugrid_names(true), field); }
+FieldFault in_ugrid_triangles(const MeshField& field) {
+  return find_fault(ugrid_names(false), field);
+}
+FieldFault in_scrip(const MeshField& field) { return find_fault(scrip_names(), field); }
+FieldFault in_esmf(const MeshField& field) { return find_fault(esmf_names(), field); }
+FieldFault in_exodus(const MeshField& field) { return find_fault(exodus_names(), field); }
 
-/// Whether formats for graphics programs compute data of that name at all cells. What they compute
-/// at Voronoi cells only is derived from the mesh.
-bool is_own_property(const std::string& name) { return name == "area" || name == "site"; }
-
-bool in_vtk(const MeshField& field) {
-  return field.location != FieldLocation::edges && field.count() == 1 &&
-         !(field.location == FieldLocation::cells && is_own_property(field.name));
+bool is_any(const std::string& name, std::initializer_list<std::string_view> names) {
+  return std::ranges::find(names, name) != names.end();
 }
 
-bool in_geojson(const MeshField& field) {
-  const std::string& name = field.name;
-  return field.location == FieldLocation::cells && field.count() == 1 && !is_own_property(name) &&
-         name != "id" && name != "x" && name != "y" && name != "z";
+/// What formats for graphics programs compute at Voronoi cells, see is_computed().
+bool is_computed_name(const std::string& name) {
+  return is_any(name, {"density", "spacing", "quality", "degree"});
+}
+
+/// Names in VTK are unique, at whatever location.
+FieldFault in_vtk(const MeshField& field) {
+  const bool at_cells = field.location == FieldLocation::cells;
+  if (field.location == FieldLocation::edges)
+    return FieldFault::location;
+  if (field.count() > 1)
+    return FieldFault::several;
+  return is_any(field.name, {"area", "site"}) || (!at_cells && is_computed_name(field.name))
+             ? FieldFault::name
+             : FieldFault::none;
+}
+
+FieldFault in_vtk_cells(const MeshField& field) {
+  return field.name == "triangle" ? FieldFault::name : in_vtk(field);
+}
+
+FieldFault in_geojson(const MeshField& field) {
+  if (field.location != FieldLocation::cells)
+    return FieldFault::location;
+  if (field.count() > 1)
+    return FieldFault::several;
+  return is_any(field.name, {"area", "site", "id", "x", "y", "z"}) ? FieldFault::name
+                                                                   : FieldFault::none;
 }
 
 std::vector<FormatRow> make_table() {
@@ -118,7 +143,7 @@ std::vector<FormatRow> make_table() {
       {.info = {Format::mpas, "mpas", {".nc"}, "MPAS, complete, with NAME.graph.info", true, true},
        .label = "MPAS",
        .planes = {.clipped = true, .periodic = true},
-       .stores_field = in_mpas,
+       .fault = in_mpas,
        .write_mesh = used_up<write_mpas>,
        .polygons_as = Format::mpas,
        .is = is_mpas,
@@ -132,12 +157,12 @@ std::vector<FormatRow> make_table() {
                 true},
        .label = "MPAS",
        .planes = {.periodic = true},
-       .stores_field = in_minimal_mpas,
+       .fault = in_minimal_mpas,
        .write_mesh = used_up<write_mpas_minimal>},
       {.info = {Format::ugrid, "ugrid", {".nc"}, "UGRID of cells", true, true},
        .label = "UGRID",
        .planes = clipped,
-       .stores_field = in_ugrid,
+       .fault = in_ugrid,
        .write_mesh = as_grid<write_ugrid>,
        .write_polygons = write_ugrid,
        .is = is_ugrid,
@@ -146,25 +171,25 @@ std::vector<FormatRow> make_table() {
       {.info =
            {Format::ugrid_triangles, "ugrid-triangles", {".nc"}, "UGRID of triangles", false, true},
        .label = "UGRID",
-       .stores_field = in_ugrid_triangles,
+       .fault = in_ugrid_triangles,
        .write_mesh = to_files<write_ugrid_triangles>},
       {.info = {Format::scrip, "scrip", {".nc"}, "SCRIP", true, true},
        .label = "SCRIP",
-       .stores_field = in_scrip,
+       .fault = in_scrip,
        .write_mesh = as_grid<write_scrip>,
        .write_polygons = write_scrip,
        .is = is_scrip,
        .read = from_netcdf<read_scrip>},
       {.info = {Format::esmf, "esmf", {".nc"}, "ESMF", true, true},
        .label = "ESMF",
-       .stores_field = in_esmf,
+       .fault = in_esmf,
        .write_mesh = as_grid<write_esmf>,
        .write_polygons = write_esmf,
        .is = is_esmf,
        .read = from_netcdf<read_esmf>},
       {.info = {Format::exodus, "exodus", {".g", ".exo"}, "Exodus of cells", true, true},
        .label = "Exodus",
-       .stores_field = in_exodus,
+       .fault = in_exodus,
        .write_mesh = as_grid<write_exodus>,
        .write_polygons = write_exodus,
        .is = is_exodus,
@@ -180,7 +205,7 @@ std::vector<FormatRow> make_table() {
       {.info = {Format::vtp, "vtp", {".vtp"}, "VTK PolyData of triangles"},
        .label = "VTK",
        .planes = flat,
-       .stores_field = in_vtk,
+       .fault = in_vtk,
        .write_mesh = to_stream<put_vtp>,
        .polygons_as = Format::vtp_cells,
        .read = from_stream<get_vtk_xml>,
@@ -188,7 +213,7 @@ std::vector<FormatRow> make_table() {
       {.info = {Format::vtu, "vtu", {".vtu"}, "VTK UnstructuredGrid of triangles"},
        .label = "VTK",
        .planes = flat,
-       .stores_field = in_vtk,
+       .fault = in_vtk,
        .write_mesh = to_stream<put_vtu>,
        .polygons_as = Format::vtu_cells,
        .read = from_stream<get_vtk_xml>,
@@ -197,14 +222,14 @@ std::vector<FormatRow> make_table() {
        .label = "VTK",
        .planes = clipped,
        .bytes_a_site = 200,
-       .stores_field = in_vtk,
+       .fault = in_vtk_cells,
        .write_mesh = to_stream<put_vtp_cells>,
        .write_polygons = polygons_to_stream<put_vtp_cells>},
       {.info = {Format::vtu_cells, "vtu-cells", {".vtu"}, "VTK UnstructuredGrid of cells", true},
        .label = "VTK",
        .planes = clipped,
        .bytes_a_site = 200,
-       .stores_field = in_vtk,
+       .fault = in_vtk_cells,
        .write_mesh = to_stream<put_vtu_cells>,
        .write_polygons = polygons_to_stream<put_vtu_cells>},
       {.info = {Format::vtk, "", {".vtk"}, "legacy VTK"},
@@ -236,7 +261,7 @@ std::vector<FormatRow> make_table() {
        .label = "GeoJSON",
        .planes = clipped,
        .bytes_a_site = 600,
-       .stores_field = in_geojson,
+       .fault = in_geojson,
        .write_mesh = to_stream<put_geojson>,
        .write_polygons = polygons_to_stream<put_geojson>,
        .read = from_stream<get_geojson>,
@@ -289,9 +314,58 @@ const FormatRow* find_row(const NetcdfReader& file) {
   return nullptr;
 }
 
-bool stores_field(Format format, const MeshField& field) {
+FieldFault find_fault(Format format, const MeshField& field) {
   const FormatRow& row = find_row(format);
-  return row.stores_field != nullptr && row.stores_field(field);
+  return row.fault == nullptr ? FieldFault::no_fields : row.fault(field);
+}
+
+bool is_computed(Format format, const MeshField& field) {
+  const FormatRow& row = find_row(format);
+  return !row.info.netcdf && row.fault != nullptr && field.location == FieldLocation::cells &&
+         is_computed_name(field.name);
+}
+
+namespace {
+
+/// Names of files of the formats that store a field; of those with the name of a path the words.
+std::string formats_with(const MeshField& field, const std::string& path) {
+  std::vector<std::string> names;
+  for (const FormatRow& row : format_table()) {
+    if (row.write_mesh == nullptr || row.fault == nullptr || row.fault(field) != FieldFault::none)
+      continue;
+    const std::string& suffix = row.info.names.front();
+    const std::string& name = suffix == suffix_of(path) ? row.info.word : suffix;
+    if (std::ranges::find(names, name) == names.end())
+      names.push_back(name);
+  }
+  return listed(names, " or ");
+}
+
+std::string location_words(const MeshField& field) {
+  return field.location == FieldLocation::cells   ? "cells"
+         : field.location == FieldLocation::edges ? "edges"
+                                                  : "vertices";
+}
+
+} // namespace
+
+void refuse_field(const std::string& path, Format format, const MeshField& field,
+                  FieldFault fault) {
+  const std::string what = find_row(format).label, others = formats_with(field, path);
+  const std::string instead =
+      others.empty() ? "leave it out" : message("write {}, or leave it out", others);
+  if (fault == FieldFault::name)
+    refuse_path(path, "{} has a variable {} of its own; give the field another name", what,
+                field.name);
+  if (fault == FieldFault::several)
+    refuse_path(path,
+                "the field {} has several numbers for each of the {}: {}, and {} holds one; choose "
+                "an index of each (--at), or write {}",
+                field.name, location_words(field), in_words(field.dimensions), what, others);
+  if (fault == FieldFault::location)
+    refuse_path(path, "{} holds no fields at {}, such as {}; {}", what, location_words(field),
+                field.name, instead);
+  refuse_path(path, "{} holds no fields; write {}", what, others);
 }
 
 std::string triangle_formats(const std::string& last) {
@@ -319,3 +393,10 @@ std::string clipped_formats() {
 }
 
 } // namespace calotte::io_detail
+
+void calotte::require_field_format(const std::string& path, Format option) {
+  using namespace io_detail;
+  const Format format = format_of(path, option);
+  if (find_row(format).fault == nullptr)
+    refuse_field(path, format, {}, FieldFault::no_fields);
+}

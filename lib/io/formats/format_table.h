@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/cells/raw_mesh.h"
+#include "io/cells/written_fields.h"
 #include "io/formats/room.h"
 
 #include <calotte/mesh_file.h>
@@ -46,8 +47,8 @@ struct FormatRow {
   FormatInfo info;
   std::string label; ///< name of the contents, MeshFile::format
   Planes planes = {};
-  std::int64_t bytes_a_site = 100; ///< approximate; used for progress only
-  bool (*stores_field)(const MeshField&) = nullptr;
+  std::int64_t bytes_a_site = 100;                 ///< approximate; used for progress only
+  FieldFault (*fault)(const MeshField&) = nullptr; ///< of a field; null if it stores none
 
   void (*write_mesh)(const std::string&, WrittenMesh, const WriteOptions&) = nullptr;
   /// Writes cells of any shape.
@@ -70,7 +71,16 @@ const FormatRow& find_row(Format format);
 
 /// The row of an open NetCDF file; null if it belongs to no row.
 const FormatRow* find_row(const NetcdfReader& file);
-bool stores_field(Format format, const MeshField& field);
+
+/// Why a format cannot store a field.
+FieldFault find_fault(Format format, const MeshField& field);
+/// Whether a format for graphics programs computes a field of that name at Voronoi cells. Those of
+/// a file are not stored.
+bool is_computed(Format format, const MeshField& field);
+/// Refuses a field that a format cannot store, with the formats that can.
+/// \throws Error invalid_argument.
+[[noreturn]] void refuse_field(const std::string& path, Format format, const MeshField& field,
+                               FieldFault fault);
 
 // For messages: the suffixes of formats that contain triangles and their points.
 // \param last joins the last two.

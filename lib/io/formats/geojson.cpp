@@ -98,7 +98,7 @@ std::vector<const MeshField*> select_cell_fields(const WriteOptions& options,
                                                  std::span<const char* const> own_properties) {
   std::vector<const MeshField*> fields;
   for (const MeshField& field : options.fields)
-    if (stores_field(Format::geojson, field) &&
+    if (find_fault(Format::geojson, field) == FieldFault::none &&
         std::find(own_properties.begin(), own_properties.end(), field.name) == own_properties.end())
       fields.push_back(&field);
   return fields;

@@ -90,6 +90,22 @@ Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions&
   return out;
 }
 
+/// \throws Error invalid_argument, for a field that the format cannot store.
+void require_stored(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  const bool clipped = mesh.surface.is_bounded() && !mesh.surface.is_sphere();
+  for (const MeshField& field : options.fields) {
+    FieldFault fault = find_fault(options.format, field);
+    if (fault == FieldFault::none && clipped && info_of(options.format).cells &&
+        field.location != FieldLocation::cells)
+      fault = FieldFault::location;
+    if (fault == FieldFault::none && (clipped || mesh.closed()) &&
+        is_computed(options.format, field))
+      fault = FieldFault::name;
+    if (fault != FieldFault::none)
+      refuse_field(path, options.format, field, fault);
+  }
+}
+
 void require_input_numbering(const std::string& path, Numbering numbering) {
   if (numbering == Numbering::curve)
     refuse_path(path, "the cells of a planar mesh keep their numbers; leave the order out");
@@ -105,6 +121,7 @@ void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions&
   require_values(path, count_sizes(mesh.mesh), resolved);
   if (info_of(resolved.format).netcdf)
     replace_names(resolved.fields);
+  require_stored(path, mesh.mesh, resolved);
   Monitor monitor(options.progress);
   monitor.begin("number", numbered, 1);
   const Numbering numbering = choose_numbering(resolved);
@@ -156,14 +173,12 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
   require_values(path, count_sizes(mesh), resolved);
   if (info_of(resolved.format).netcdf)
     replace_names(resolved.fields);
+  require_stored(path, mesh, resolved);
   resolved.progress = progress_from(options.progress, 0);
-  if (surface.is_bounded() && info_of(resolved.format).cells) {
-    std::erase_if(resolved.fields,
-                  [](const MeshField& field) { return field.location != FieldLocation::cells; });
+  if (surface.is_bounded() && info_of(resolved.format).cells)
     write_cells(path, voronoi(mesh), resolved);
-  } else {
+  else
     find_row(resolved.format).write_mesh(path, {mesh}, resolved);
-  }
   Monitor(options.progress).finish("write");
 }
 

@@ -77,9 +77,10 @@ bool is_on_polygons(const Polygons& polygons, const MeshField& field, Format for
 void write_polygons(const std::string& path, const MeshFile& file, WriteOptions options) {
   require_options(path, options);
   require_polygon_format(path, file, options.format);
-  std::erase_if(options.fields, [&](const MeshField& field) {
-    return !is_on_polygons(*file.polygons, field, options.format);
-  });
+  for (const MeshField& field : options.fields)
+    if (field.location == FieldLocation::cells && !has_values_for(field, file.polygons->size()))
+      refuse_path(path, "the field {} has {} values for {} cells; give {} for each", field.name,
+                  field.values.size(), file.polygons->size(), field.count());
   const bool has_density = file.density.size() == file.polygons->size();
   if (options.format == Format::mpas) {
     if (has_density && options.density.uniform() && options.site_density.size() == 0)
@@ -88,8 +89,6 @@ void write_polygons(const std::string& path, const MeshFile& file, WriteOptions 
   } else {
     if (has_density)
       options.fields.push_back({.name = "density", .values = file.density});
-    if (info_of(options.format).netcdf)
-      replace_names(options.fields);
     Polygons polygons = unwrapped(*file.polygons);
     if (options.format == Format::scrip && polygons.centres.cols() == 0)
       polygons.centres = centroids_of(polygons);
@@ -141,55 +140,97 @@ bool is_at_corners(const MeshFile& file, const MeshField& field) {
          !has_values_for(field, file.mesh->triangles.cols());
 }
 
-/// The names of the fields that a format cannot store. Only MPAS files derive masks at edges and
-/// vertices.
-std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
+/// Why a file of a format cannot have a field.
+FieldFault find_fault_on(const MeshFile& file, const MeshField& field, Format format,
+                         bool polygons) {
+  if (const FieldFault fault = find_fault(format, field); fault != FieldFault::none)
+    return fault;
   const bool clipped = !polygons && file.is_clipped() && info_of(format).cells;
-  std::vector<std::string> dropped;
-  const auto is_held = [&](const MeshField& field) {
-    if (format == Format::mpas && is_derived_mask(field.name, file.fields))
-      return true;
-    return stores_field(format, field) && !(clipped && field.location != FieldLocation::cells) &&
-           !(polygons && !is_on_polygons(*file.polygons, field, format)) &&
-           !(!polygons && is_at_corners(file, field));
-  };
-  for (const MeshField& field : file.fields)
-    if (!is_held(field))
-      dropped.push_back(field.name);
+  const bool elsewhere =
+      polygons ? !is_on_polygons(*file.polygons, field, format)
+               : is_at_corners(file, field) || (clipped && field.location != FieldLocation::cells);
+  return elsewhere ? FieldFault::location : FieldFault::none;
+}
+
+/// Whether a file has values of its own for a field: masks, which MPAS files derive at edges and
+/// vertices, and what formats for graphics programs compute at Voronoi cells.
+bool is_replaced(const MeshFile& file, const MeshField& field, Format format, bool polygons) {
+  const bool computes = !polygons && (file.mesh->closed() || file.is_clipped());
+  return (format == Format::mpas && is_derived_mask(field.name, file.fields)) ||
+         (computes && is_computed(format, field));
+}
+
+/// Masks at edges and vertices that only MPAS files have.
+std::vector<std::string> lost_masks(const MeshFile& file, Format format, bool polygons) {
+  std::vector<std::string> lost;
   for (const std::string name : {edge_mask.name, vertex_mask.name})
     if (polygons && format != Format::mpas && is_derived_mask(name, file.fields) &&
         std::ranges::none_of(file.fields,
                              [&](const MeshField& field) { return field.name == name; }))
-      dropped.push_back(name);
-  return dropped;
+      lost.push_back(name);
+  return lost;
+}
+
+/// How a file is written.
+struct WritePlan {
+  WriteOptions options; ///< with a known format, and the fields that are stored
+  WrittenShape shape;
+  WrittenFields fields;
+};
+
+/// \throws Error invalid_argument, for a field of the options that cannot be stored. Others are
+///         dropped.
+WritePlan plan(const std::string& path, const MeshFile& file, const WriteOptions& options) {
+  WritePlan out{.options = options, .shape = {}, .fields = {}};
+  Format& format = out.options.format;
+  format = format_of(path, options.format);
+  out.shape = shape_for(file, format);
+  const bool polygons = out.shape.polygons;
+  if (polygons)
+    format = find_row(format).polygons_as.value_or(format);
+  std::vector<MeshField> all = options.fields;
+  all.insert(all.end(), file.fields.begin(), file.fields.end());
+  if (info_of(format).netcdf)
+    out.fields.renamed = replace_names(all);
+  out.options.fields.clear();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool asked = i < options.fields.size();
+    const bool replaced = is_replaced(file, all[i], format, polygons);
+    const FieldFault fault =
+        replaced ? FieldFault::name : find_fault_on(file, all[i], format, polygons);
+    if (fault == FieldFault::none)
+      out.options.fields.push_back(std::move(all[i]));
+    else if (asked)
+      refuse_field(path, format, all[i], fault);
+    else if (!replaced)
+      out.fields.dropped.push_back(file.fields[i - options.fields.size()].name);
+  }
+  for (std::string& name : lost_masks(file, format, polygons))
+    out.fields.dropped.push_back(std::move(name));
+  return out;
 }
 
 } // namespace
 
+void require_storable(const std::string& path, const MeshFile& file, const WriteOptions& options) {
+  plan(path, file, options);
+}
+
 WrittenFields write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
-  WriteOptions resolved = options;
-  resolved.format = format_of(path, options.format);
+  WritePlan planned = plan(path, file, options);
+  WriteOptions& resolved = planned.options;
   if (!options.planet_radius)
     resolved.planet_radius = file.planet_radius;
-  resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
-  WrittenFields written;
-  if (info_of(resolved.format).netcdf)
-    written.renamed = replace_names(resolved.fields);
-  const WrittenShape shape = shape_for(file, resolved.format);
-  if (shape.polygons) {
-    resolved.format = find_row(resolved.format).polygons_as.value_or(resolved.format);
+  if (planned.shape.polygons) {
     write_polygons(path, file, resolved);
   } else {
     if (options.density.uniform() && options.site_density.size() == 0)
       resolved.site_density = file.density;
-    std::erase_if(resolved.fields,
-                  [&](const MeshField& field) { return is_at_corners(file, field); });
     if (file.sphere())
       require_voronoi(path, *file.mesh, resolved.format);
-    write(path, shape.inner ? *shape.inner : *file.mesh, resolved);
+    write(path, planned.shape.inner ? *planned.shape.inner : *file.mesh, resolved);
   }
-  written.dropped = dropped_fields(file, resolved.format, shape.polygons);
-  return written;
+  return std::move(planned.fields);
 }
 
 } // namespace calotte
