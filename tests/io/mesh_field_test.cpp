@@ -434,3 +434,27 @@ TEST_CASE("a field that is asked for is in the file, or is refused before any wo
   CHECK(stored > 50);
   CHECK(refused > 50);
 }
+
+TEST_CASE("numbers that a mesh file lacks have a fill value, which it names") {
+  const Scratch scratch;
+  const std::string path = scratch / "mesh.nc";
+  calotte::WriteOptions options;
+  options.fields = {{.name = "gap", .values = Eigen::VectorXd::LinSpaced(6, 0, 5)},
+                    {.name = "whole", .values = Eigen::VectorXd::LinSpaced(6, 0, 5)}};
+  options.fields[0].values[2] = std::nan("");
+  calotte::write(path, calotte::delaunay(octahedron()), options);
+  const auto fill_of = [&](const char* name) {
+    int id = -1, v = -1;
+    double fill = 0;
+    require(nc_open(path.c_str(), NC_NOWRITE, &id));
+    require(nc_inq_varid(id, name, &v));
+    const bool has = nc_get_att_double(id, v, "_FillValue", &fill) == NC_NOERR;
+    require(nc_close(id));
+    return has ? fill : std::nan("");
+  };
+  CHECK(fill_of("gap") == NC_FILL_DOUBLE);
+  CHECK(std::isnan(fill_of("whole")));
+  const std::vector<double> values = Patch(path).get("gap").values;
+  CHECK(std::ranges::count(values, NC_FILL_DOUBLE) == 1);
+  CHECK(calotte::read_mesh_file(path).fields[0].values.array().isNaN().count() == 1);
+}

@@ -107,8 +107,7 @@ void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<i
   const NetcdfType type = field.integer  ? NetcdfType::int32
                           : field.single ? NetcdfType::float32
                                          : NetcdfType::float64;
-  const bool filled =
-      missing == Missing::filled || (type == NetcdfType::int32 && field.values.hasNaN());
+  const bool filled = missing == Missing::filled || field.values.hasNaN();
   if (filled)
     attributes.push_back(fill_attribute(type));
   std::vector<int> dimensions = others;
@@ -140,7 +139,7 @@ void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FileLoc
     for (const FieldDimension& dimension : field.dimensions)
       others.push_back(file.netcdf().field_dimension(netcdf_name(dimension.name), dimension.size));
     add_field(file, field, {location.dimension}, others, location.attributes,
-              Missing::where_integer);
+              Missing::where_needed);
   }
 }
 

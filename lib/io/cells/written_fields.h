@@ -34,8 +34,8 @@ struct FileLocations {
 
 /// How missing numbers of a field are stored.
 enum class Missing {
-  where_integer, ///< NaN, and of integers a fill value
-  filled         ///< a fill value, which the attributes name in any case
+  where_needed, ///< a fill value, which the attributes name where a number is missing
+  filled        ///< the same, and the attributes name it in any case
 };
 
 /// Declares a field.
