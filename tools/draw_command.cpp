@@ -18,6 +18,7 @@
 #include "run/spacing_survey.h"
 #include "text/text.h"
 
+#include <calotte/field_grid.h>
 #include <calotte/quality.h>
 
 #include <CLI/App.hpp>
@@ -209,6 +210,8 @@ std::string draw_mesh(const DrawArguments& arguments, Progress& progress) {
   progress.stage("reading " + arguments.source->mesh_path());
   MeshFile file = read_mesh_alone(*arguments.source, FieldChoice::scalars);
   const bool plane = file.plane() != nullptr;
+  if (const MeshSource& source = *arguments.source; !source.mesh.empty())
+    require_order(source.path, file, source.mesh);
   DrawOptions options = options_for(arguments, file);
   options.density =
       density_of(*arguments.density, plane ? domain.value_or(Surface::plane()) : Surface());

@@ -46,11 +46,23 @@ struct FieldGrid {
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all,
                           const std::vector<FieldIndex>& choices = {});
 
+/// The first cell of a file that does not hold the position which is given for it; -1 if all do. A
+/// position counts as held within 1e-6 radians of the centre, and where it is NaN, and so do all in
+/// a plane.
+/// \param positions 3 x n directions, one for each cell.
+std::int64_t first_misplaced(const MeshFile& mesh, const Points3& positions);
+
+/// Requires the cells of a file of fields to be in the order of a mesh, where the file has their
+/// longitudes and latitudes, or lonCell and latCell, see first_misplaced().
+/// \param mesh_path the name of the mesh, for the message.
+/// \throws Error parse, with the index of the first cell in another order; file.
+void require_order(const std::string& path, const MeshFile& mesh, const std::string& mesh_path);
+
 /// The same for a file of fields without their mesh, such as a model's history, and a file of the
 /// mesh. In the file of fields, nCells is the dimension of the cells, or else the only dimension of
-/// their number.
-/// \throws Error as above; parse for a file without such a dimension; invalid_argument for a mesh
-///         file that is a raster.
+/// their number. The cells must be in the order of the mesh, see require_order().
+/// \throws Error as above; parse for a file without such a dimension; as require_order();
+///         invalid_argument for a mesh file that is a raster.
 FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
                           FieldChoice choice = FieldChoice::all,
                           const std::vector<FieldIndex>& choices = {});

@@ -473,3 +473,86 @@ TEST_CASE("the sea floor keeps the area and the volume of the sea") {
   heights.of_plane = true;
   CHECK_THROWS_AS(sea_floor(heights, ocean), Error);
 }
+
+namespace {
+
+/// A file of fields without a mesh: numbers, and the positions of the cells.
+struct History {
+  Points3 cells; ///< unit vectors
+  std::string longitude = "lon", latitude = "lat";
+  std::string units = "degrees_"; ///< "radians", "", or a start
+  bool single = false;            ///< rounded to single precision
+
+  void write(const std::string& path) const {
+    NetcdfWriter file(path);
+    const int n = file.dimension("nCells", cells.cols());
+    const bool degrees = units == "degrees_";
+    const auto add = [&](const std::string& name, const char* direction) {
+      calotte::io_detail::NetcdfAttributes attributes;
+      if (!units.empty())
+        attributes.push_back({"units", degrees ? units + direction : units});
+      return file.variable(name, NetcdfType::float64, {n}, attributes);
+    };
+    const int f = file.variable("f", NetcdfType::float64, {n}), lon = add(longitude, "east"),
+              lat = add(latitude, "north");
+    file.begin();
+    const Points2 at = (degrees ? 1 : degree) * to_lonlat(cells);
+    const auto put = [&](int variable, int row) {
+      file.put(variable, [&](std::int64_t begin, std::int64_t end, double* out) {
+        for (std::int64_t i = begin; i < end; ++i)
+          *out++ = row < 0  ? static_cast<double>(i)
+                   : single ? static_cast<double>(static_cast<float>(at(row, i)))
+                            : at(row, i);
+      });
+    };
+    put(f, -1);
+    put(lon, 0);
+    put(lat, 1);
+    file.finish();
+    file.commit();
+  }
+};
+
+} // namespace
+
+TEST_CASE("fields of cells in another order than the mesh's are refused") {
+  const Scratch scratch;
+  const std::string mesh = in_folder(scratch, "mesh.nc"), path = in_folder(scratch, "history.nc");
+  write(mesh, delaunay(fibonacci_sphere(500)));
+  const Points3 cells = read_mesh(mesh).points;
+  const Points3 turned = cells.rowwise().reverse();
+  for (const History& kind :
+       {History{.cells = {}},
+        {.cells = {}, .single = true},
+        {.cells = {}, .longitude = "lonCell", .latitude = "latCell", .units = "radians"},
+        {.cells = {}, .longitude = "lonCell", .latitude = "latCell", .units = ""}}) {
+    CAPTURE(kind.longitude);
+    CAPTURE(kind.units);
+    History history = kind;
+    history.cells = cells;
+    history.write(path);
+    CHECK(read_field_grid(path, mesh).size() == 500);
+    history.cells.col(317) = (cells.col(317) + 1e-3 * Eigen::Vector3d(1, 2, 3)).normalized();
+    history.write(path); // within its cell, as a rounded position is
+    CHECK(read_field_grid(path, mesh).size() == 500);
+    history.cells.col(318).swap(history.cells.col(41));
+    history.write(path);
+    const Error one = error_of([&] { read_field_grid(path, mesh); });
+    CHECK(one.code() == ErrorCode::parse);
+    CHECK(one.index() == 41);
+    CHECK(has(one.what(), path + ": cell 41 is at "));
+    CHECK(has(one.what(), ", and that of " + mesh + " at "));
+    history.cells = turned;
+    history.write(path);
+    CHECK(error_of([&] { read_field_grid(path, mesh); }).index() == 0);
+  }
+  History other{.cells = turned, .units = "m"}; // no positions
+  other.write(path);
+  CHECK(read_field_grid(path, mesh).size() == 500);
+  const MeshFile file = read_mesh_file(mesh);
+  CHECK(first_misplaced(file, cells) == -1);
+  Points3 some = turned;
+  some.leftCols(250).setConstant(none); // unknown
+  CHECK(first_misplaced(file, some) == 250);
+  CHECK_THROWS_AS(first_misplaced(file, cells.leftCols(3)), Error);
+}

@@ -212,6 +212,57 @@ def test_writing_fields_of_any_dimensions(mesh, tmp_path):
     assert not (tmp_path / "never.nc").exists()
 
 
+def test_the_order_of_cells(mesh, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("netCDF4")
+    latitude = calotte.interpolate(BOXES, xarray.DataArray(
+        np.broadcast_to(BOXES.latitudes[:, np.newaxis], (18, 36)), dims=("lat", "lon"), name="warmth",
+        coords={"lat": BOXES.latitudes, "lon": BOXES.longitudes}), mesh)
+    dataset = mesh.to_xarray(fields={"warmth": latitude})
+    assert np.allclose(np.degrees(dataset.latCell), mesh.lat) and (dataset.warmth == latitude.values).all()
+    mesh.to_mpas(tmp_path / "curve.nc")
+    mesh.to_mpas(tmp_path / "input.nc", order="input")
+    latitude.to_netcdf(tmp_path / "history.nc")
+    read = calotte.read(tmp_path / "history.nc", mesh=tmp_path / "input.nc")
+    assert (read.fields["warmth"] == latitude.values).all() and np.abs(read.fields["warmth"] - read.lat).max() < 5
+    with pytest.raises(calotte.Error, match=r"history.nc: cell \d+ is at .* E .* N, and that of .*curve.nc at .*input"):
+        calotte.read(tmp_path / "history.nc", mesh=tmp_path / "curve.nc")
+    other = calotte.read(tmp_path / "curve.nc")
+    for use in (lambda: calotte.interpolate(other, latitude, BOXES), lambda: other.plot(latitude),
+                lambda: other.to_mpas(tmp_path / "x.nc", fields={"w": latitude})):
+        with pytest.raises(calotte.Error, match=r"have cell \d+ at .*not in cell \d+ of the mesh"):
+            use()
+    radians = latitude.drop_vars(["lon", "lat"]).assign_coords(
+        lonCell=("nCells", np.radians(mesh.lon), {"units": "radians"}), latCell=("nCells", np.radians(mesh.lat)))
+    assert calotte.interpolate(mesh, radians, BOXES).shape == (18, 36)
+    with pytest.raises(calotte.Error, match="not in cell"):
+        calotte.interpolate(other, radians, BOXES)
+    plain = latitude.drop_vars(["lon", "lat"])  # nothing to compare
+    assert calotte.interpolate(other, plain, BOXES).shape == (18, 36)
+
+
+def test_fields_that_a_format_does_not_hold(mesh, tmp_path):
+    times = np.random.default_rng(2).random((TIMES, 642))
+    for name, fields, text in (
+            ("a.nc", {"latCell": times[0]}, "MPAS has a variable latCell of its own; give the field another"),
+            ("a.vtp", {"h": times}, r"several numbers for each of the cells: Time \(3\)"),
+            ("a.vtp", {"spacing": times[0]}, "VTK has a variable spacing of its own"),
+            ("a.ply", {"h": times[0]}, "PLY holds no fields; write .nc,")):
+        with pytest.raises(calotte.Error, match=text):
+            calotte.write(tmp_path / name, mesh, fields=fields)
+        assert not any(tmp_path.iterdir())
+
+
+def test_missing_numbers_have_a_fill_value(mesh, tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    values = np.where(mesh.lat > 0, np.nan, mesh.lat)
+    mesh.to_mpas(tmp_path / "a.nc", order="input", fields={"h": values})
+    calotte.read(tmp_path / "a.nc").to_mpas(tmp_path / "b.nc", order="input")
+    for name in ("a.nc", "b.nc"):
+        with netcdf.Dataset(tmp_path / name) as file:
+            assert "_FillValue" in file["h"].ncattrs() and (file["h"][:].mask == np.isnan(values)).all()
+
+
 # ---- Pictures
 
 def test_pictures_of_an_index(mesh, tmp_path):

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/field_grid.h>
 
+#include "base/lonlat.h"
+#include "base/message.h"
 #include "base/require.h"
+#include "io/bytes/file_error.h"
 #include "io/cells/centroids.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/netcdf_fields.h"
@@ -9,6 +12,8 @@
 #include "io/command.h"
 #include "io/fields/cell_dimension.h"
 #include "io/fields/raster_grid.h"
+#include "io/netcdf/cf_axes.h"
+#include "io/netcdf/cf_values.h"
 #include "io/netcdf/netcdf_reader.h"
 
 #include <calotte/delaunay.h>
@@ -17,7 +22,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -46,27 +53,31 @@ void require_one_surface(const FieldGrid& source, const FieldGrid& target) {
           target.name, words(target), words(source) == words(target) ? " of another period" : "");
 }
 
+std::int64_t count_cells(const MeshFile& mesh) {
+  return mesh.polygons ? mesh.polygons->size() : mesh.mesh ? mesh.mesh->points.cols() : 0;
+}
+
 /// The centres of cells.
+Points3 centres_of(const MeshFile& mesh) {
+  if (!mesh.polygons)
+    return mesh.mesh->points;
+  return mesh.polygons->centres.cols() > 0 ? mesh.polygons->centres : centroids_of(*mesh.polygons);
+}
 Points3 centres_of(const FieldGrid& grid) {
-  if (grid.boxes)
-    return nodes(*grid.boxes);
-  if (!grid.mesh.polygons)
-    return grid.mesh.mesh->points;
-  const Polygons& cells = *grid.mesh.polygons;
-  return cells.centres.cols() > 0 ? cells.centres : centroids_of(cells);
+  return grid.boxes ? nodes(*grid.boxes) : centres_of(grid.mesh);
 }
 
 /// The cell that contains each position; -1 without one. Sites without cells, at corners of
 /// triangles, count for their triangles.
-Ids find_cells(const FieldGrid& source, const Points3& positions) {
-  if (source.mesh.polygons)
-    return cells_at(*source.mesh.polygons, positions);
-  const Locations at = locate(*source.mesh.mesh, positions);
+Ids find_cells(const MeshFile& mesh, const Points3& positions) {
+  if (mesh.polygons)
+    return cells_at(*mesh.polygons, positions);
+  const Locations at = locate(*mesh.mesh, positions);
   return (at.triangle.array() >= 0).select(at.nearest, -1);
 }
 
 Weights nearest(const FieldGrid& source, const Points3& positions) {
-  const Ids cells = find_cells(source, positions);
+  const Ids cells = find_cells(source.mesh, positions);
   Weights weights(positions.cols(), source.size());
   weights.reserve(cells.size());
   for (Eigen::Index i = 0; i < cells.size(); ++i) {
@@ -133,6 +144,65 @@ std::string find_cell_dimension(const NetcdfReader& file, const FieldGrid& mesh)
 bool is_coordinate(const NetcdfReader& file, const std::string& name) {
   return is_longitude(file, name) || is_latitude(file, name) || name == "x" || name == "y";
 }
+
+// ---- The order of the cells
+
+/// Whether a variable is a longitude of cells, by its attributes or as in MPAS. The same of
+/// latitudes.
+bool is_longitude_of_cells(const NetcdfReader& file, const std::string& name) {
+  return is_longitude(file, name) || (name == "lonCell" && file.is_numeric(name));
+}
+bool is_latitude_of_cells(const NetcdfReader& file, const std::string& name) {
+  return is_latitude(file, name) || (name == "latCell" && file.is_numeric(name));
+}
+
+/// The degrees in a unit of a variable; none for units other than degrees and radians.
+std::optional<double> find_degrees(const NetcdfReader& file, const std::string& name) {
+  const std::string units = file.text(name, "units");
+  if (units.starts_with("rad") || (units.empty() && name.ends_with("Cell")))
+    return 180 / std::numbers::pi;
+  return units.empty() || units.starts_with("deg") ? std::optional(1.0) : std::nullopt;
+}
+
+/// Reads a coordinate of the cells, degrees; empty without one.
+template <class Is>
+std::vector<double> read_coordinate(const NetcdfReader& file, const std::string& cells,
+                                    const Is& is_it) {
+  for (const std::string& name : file.variable_names())
+    if (file.dimensions_of(name) == std::vector<std::string>{cells} && is_it(file, name))
+      if (const std::optional<double> degrees = find_degrees(file, name)) {
+        std::vector<double> values = cf_values(file, name, {file.dimension(cells)});
+        scale(values, *degrees);
+        return values;
+      }
+  return {};
+}
+
+/// Reads the directions of the cells in a file of fields; NaN where it has none, and no columns
+/// without longitudes and latitudes.
+Points3 read_positions(const NetcdfReader& file, const std::string& cells) {
+  const std::vector<double> lon = read_coordinate(file, cells, is_longitude_of_cells),
+                            lat = read_coordinate(file, cells, is_latitude_of_cells);
+  if (lon.empty() || lat.empty())
+    return {};
+  Points3 positions(3, std::ssize(lon));
+  positions.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < lon.size(); ++i)
+    if (std::isfinite(lon[i]) && std::abs(lat[i]) <= 90) {
+      const base_detail::Vec3 at = base_detail::from_lonlat(lon[i], lat[i]);
+      positions.col(static_cast<Eigen::Index>(i)) << at.x, at.y, at.z;
+    }
+  return positions;
+}
+
+/// "30 E -10 N": the position of a cell.
+std::string position_words(const Eigen::Vector3d& direction) {
+  const base_detail::LonLat at =
+      base_detail::lonlat_of({direction.x(), direction.y(), direction.z()});
+  return base_detail::message("{} E {} N", at.longitude, at.latitude);
+}
+
+// ---- Masks
 
 /// Reads the mask of a mesh file, which is read whatever fields are chosen; none if it excludes no
 /// cell.
@@ -215,9 +285,7 @@ void leave_masked_out(const FieldGrid& source, const FieldGrid& target, GridWeig
 } // namespace io_detail
 
 std::int64_t FieldGrid::size() const {
-  if (boxes)
-    return boxes->size();
-  return mesh.polygons ? mesh.polygons->size() : mesh.mesh ? mesh.mesh->points.cols() : 0;
+  return boxes ? boxes->size() : io_detail::count_cells(mesh);
 }
 
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice,
@@ -259,12 +327,57 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
   for (const std::string& name : file.variable_names())
     if (is_coordinate(file, name))
       coordinates.insert(name);
-  read_fields_on(file, {find_cell_dimension(file, grid)}, coordinates, choice, grid.fields,
-                 grid.ignored, choices, &grid.not_scalars);
+  const std::string cells = find_cell_dimension(file, grid);
+  require_order(path, grid.mesh, mesh_path);
+  read_fields_on(file, {cells}, coordinates, choice, grid.fields, grid.ignored, choices,
+                 &grid.not_scalars);
   grid.name = path;
   apply_mask(grid);
   require_records(path, grid, choice);
   return grid;
+}
+
+std::int64_t first_misplaced(const MeshFile& mesh, const Points3& positions) {
+  using namespace io_detail;
+  if (!mesh.surface().is_sphere())
+    return -1;
+  base_detail::require(positions.cols() == count_cells(mesh),
+                       "there are {} positions of {} cells; give one for each", positions.cols(),
+                       count_cells(mesh));
+  constexpr double rounding = 1e-6;       // of single precision, several times
+  constexpr std::size_t together = 65536; // so that the first of many is found soon
+  const Points3 centres = centres_of(mesh);
+  std::vector<std::int64_t> far;
+  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+    if ((centres.col(i).normalized() - positions.col(i)).norm() > rounding) // false for NaN
+      far.push_back(i);
+    if (far.empty() || (far.size() < together && i + 1 < positions.cols()))
+      continue;
+    const Ids cells = find_cells(mesh, positions(Eigen::all, far));
+    for (std::size_t k = 0; k < far.size(); ++k)
+      if (cells[static_cast<Eigen::Index>(k)] != far[k])
+        return far[k];
+    far.clear();
+  }
+  return -1;
+}
+
+void require_order(const std::string& path, const MeshFile& mesh, const std::string& mesh_path) {
+  using namespace io_detail;
+  const NetcdfReader file(path);
+  const std::int64_t n = count_cells(mesh);
+  for (const NetcdfDimension& dimension : file.dimensions()) {
+    if (dimension.size != n)
+      continue;
+    const Points3 positions = read_positions(file, dimension.name);
+    const std::int64_t i = positions.cols() > 0 ? first_misplaced(mesh, positions) : -1;
+    if (i >= 0)
+      fail_file(
+          path, i,
+          "cell {} is at {}, and that of {} at {}; give the mesh of these fields, or one that "
+          "is written in their order (order input)",
+          i, position_words(positions.col(i)), mesh_path, position_words(centres_of(mesh).col(i)));
+  }
 }
 
 std::optional<FieldGrid> raster_of(const std::string& columns_x_rows) {

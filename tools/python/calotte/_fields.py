@@ -13,6 +13,11 @@ _OF_CELLS = ("nCells", "cell", "cells", "ncells", "n_face", "nMesh2_face", "grid
 _OF_SOURCE = {"mesh", "location", "grid_mapping", "coordinates", "cell_measures", "grid_type", "CDI_grid_type"}
 
 
+def content_of(grid):
+    """What came from a file with a mesh or polygons, or None."""
+    return vars(grid).get("_content")
+
+
 # ---- The nodes of a raster
 
 def _same_nodes(given, known, turn):
@@ -76,10 +81,11 @@ class Field:
         self.by_cell = np.ascontiguousarray(self.by_cell)
 
 
-def field_at(values, cells, raster=None, what="values"):
-    """The numbers at the cells of a grid, or of a raster, whose latitudes and longitudes may be two axes."""
+def field_at(values, cells, grid=None, what="values"):
+    """The numbers at the cells of a grid, which may be None. Of a raster two axes may be latitudes and longitudes."""
+    raster = grid if isinstance(grid, _calotte.Raster) else None
     if _labels.is_labelled(values):
-        return _labelled_field(values, cells, raster, what)
+        return _labelled_field(values, cells, grid, raster, what)
     array = _arguments.numbers(values, what)
     boxes = None if raster is None else (len(raster.latitudes), len(raster.longitudes))
     if boxes is not None and array.shape[-2:] == boxes:
@@ -90,15 +96,44 @@ def field_at(values, cells, raster=None, what="values"):
     return Field(np.moveaxis(array, axis, 0).reshape(cells, -1), axis, others)
 
 
-def _labelled_field(array, cells, raster, what):
+def _labelled_field(array, cells, grid, raster, what):
     if raster is not None:
         array, dims = _on_raster(array, raster)
     else:
         dims = _dims_of_cells(array, cells, what)
+        if grid is not None and len(dims) == 1:
+            _require_order(array, dims[0], grid, what)
     others = [name for name in array.dims if name not in dims]
     axis = min(array.dims.index(name) for name in dims)
     numbers = _arguments.numbers(array.transpose(*dims, *others).values, what)
     return Field(numbers.reshape(cells, -1), axis, numbers.shape[len(dims):], array, dims)
+
+
+def grid_of_cells(grid):
+    """A mesh or polygons as interpolation takes them."""
+    if isinstance(grid, _calotte.Polygons):
+        return _calotte.grid_of_mesh(None, grid)
+    content = content_of(grid)
+    return _calotte.grid_of_mesh(grid, None if content is None else content.polygons)
+
+
+def _require_order(array, dim, grid, what):
+    """Longitudes and latitudes of an array are those of the cells."""
+    positions = _labels.positions(array, dim)
+    if positions is None or not grid.surface.is_sphere:
+        return
+    cells = grid_of_cells(grid)
+    if len(cells) != len(positions):  # numbers at the sites of a mesh with other cells
+        return
+    known = np.isfinite(positions).all(axis=1) & (np.abs(positions[:, 1]) <= 90)
+    points = np.full((len(positions), 3), np.nan)
+    points[known] = _calotte.from_lonlat(np.ascontiguousarray(positions[known]))
+    first = _calotte.first_misplaced(cells, points)
+    if first >= 0:
+        lon, lat = positions[first]
+        raise Error(f"{what} have cell {first} at {lon:g} E {lat:g} N, which is not in cell {first} of the mesh; give "
+                    "the mesh of these values, or values in its order: files have that of the mesh with "
+                    "order=\"input\"")
 
 
 def _dims_of_cells(array, cells, what):
@@ -206,7 +241,7 @@ def _texts(array):
 
 def state_of(grid, name, values):
     """A field as writers take it: values, dimensions, the number of those before the cells, attributes."""
-    field = field_at(values, _cells_of(grid, values), what=f"the values of {name}")
+    field = field_at(values, _cells_of(grid, values), grid, f"the values of {name}")
     leading, units, long_name, texts = field.axis, "", "", []
     names = _names(leading, "Time") + _names(len(field.others) - leading, "levels")
     if field.array is not None:
@@ -227,7 +262,7 @@ def one_by_cell(grid, field, cells, at):
         values, names = grid.fields[name], _dimensions_of(grid, name)
         found = Field(values.reshape(len(values), -1), 0, values.shape[1:])
     else:
-        found = field_at(field, cells, what=f"the values of {name}" if name else "the values")
+        found = field_at(field, cells, grid, f"the values of {name}" if name else "the values")
         names = None if found.array is None else [str(dim) for dim in found.array.dims if dim not in found.dims]
     values = _at(found, name or "the field", names, choices(at))
     if values.shape != (cells,):  # of a file, whose cells are not those of its mesh
@@ -236,7 +271,7 @@ def one_by_cell(grid, field, cells, at):
 
 
 def _dimensions_of(grid, name):
-    content = vars(grid).get("_content")
+    content = content_of(grid)
     return None if content is None else list(content.dimensions[name])
 
 

@@ -17,6 +17,7 @@ from . import _arguments, _calotte, _display, _fields, _labels, _units
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import (Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi)
+from ._fields import content_of
 
 Array = NDArray[np.float64]
 Path = str | os.PathLike[str]
@@ -97,11 +98,6 @@ def neighbours(mesh: Grid) -> IdLists:
     if not isinstance(mesh, (Mesh, Polygons)):
         raise Error(f"the mesh is {type(mesh).__name__}; give a Mesh or Polygons")
     return _calotte.neighbours(content_of(mesh), mesh)
-
-
-def content_of(grid):
-    """What came from a file with a mesh or polygons, or None."""
-    return vars(grid).get("_content")
 
 
 def within(mesh, surface):
@@ -335,19 +331,16 @@ def _grid_of(value):
 
 def _field_of(grid, values, cells):
     """Numbers at the cells of a grid, which may be unknown."""
-    return _fields.field_at(values, cells, grid if isinstance(grid, Raster) else None)
+    return _fields.field_at(values, cells, grid)
 
 
 def _field_grid(grid):
     """The grid as interpolation takes it."""
     if isinstance(grid, Raster):
         return _calotte.grid_of_boxes(grid)
-    if isinstance(grid, Polygons):
-        return _calotte.grid_of_mesh(None, grid)
-    if not isinstance(grid, Mesh):
+    if not isinstance(grid, (Mesh, Polygons)):
         raise Error(f"a grid is {type(grid).__name__}; give a Mesh, Polygons, a Raster or a DataArray with lat and lon")
-    content = content_of(grid)
-    return _calotte.grid_of_mesh(grid, None if content is None else content.polygons)
+    return _fields.grid_of_cells(grid)
 
 
 def _require_method(method, methods):
@@ -1289,7 +1282,9 @@ def read(path: Path, *, fields: str = "scalars", mesh: Path | None = None,
 
     fields: which of the file's fields to read: "scalars", those with one number for each cell;
         "all", or "none". They are the attribute `fields`, and written files get them again.
-    mesh: the file of the mesh, where `path` holds fields alone, such as a model's history.
+    mesh: the file of the mesh, where `path` holds fields alone, such as a model's history. The cells
+        have the same order in both; longitudes and latitudes in `path`, or lonCell and latCell, are
+        compared with the mesh's.
     at: indices of fields in their further dimensions, from 0 on, -1 for the last, as {"Time": 3,
         "lev": 0}: a name may be a part of that of the dimension, in any case.
     Returns a Mesh, whose attribute `cells` has the file's cells where these are not the Voronoi cells
@@ -1336,8 +1331,11 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
     fields: a dict of numbers at the cells, beside those that were read: n, or an array with further
         dimensions, of which one has the size n. Those before it have the name Time in a NetCDF file,
         those after it levels. An xarray.DataArray gives the names, with its unit and its long_name.
-    order: of the cells: "curve", along a space-filling curve; or "input", that of the mesh.
-        Default: curve in NetCDF files, input in others and for meshes of refine() and coarsen().
+        Raises Error for a format that does not hold them, and for the name of a variable that the
+        format has of its own, such as latCell.
+    order: of the cells: "curve", along a space-filling curve; or "input", that of the mesh, which
+        arrays have beside it. Default: curve in NetCDF files, input in others and for meshes of
+        refine() and coarsen().
     """
     values = [_fields.state_of(mesh, name, value) for name, value in (fields or {}).items()]
     output = _calotte.Output(str(path), format, sphere_radius,
@@ -1349,7 +1347,7 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
     mesh = within(mesh, surface)
     if content is not None:
         names = _calotte.write_content(content, mesh, output)
-        dropped = [name for name in names if name in content.fields or name in (fields or {})]
+        dropped = [name for name in names if name in content.fields]
         if dropped:
             warnings.warn(f"{path}: the format does not hold {', '.join(dropped)}", stacklevel=2)
     elif isinstance(mesh, Polygons):

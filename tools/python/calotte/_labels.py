@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Arrays with named dimensions: those of xarray, which is imported only to make one from none."""
+import numpy as np
+
 from ._calotte import Error
 
 
@@ -48,6 +50,23 @@ def lat_lon(array, what):
         raise Error(f"{what} have the dimensions {tuple(array.dims)}; name one of them lat and one lon, or give their "
                     "coordinates the attribute units, degrees_north and degrees_east")
     return found
+
+
+def positions(array, dim):
+    """Longitudes and latitudes along a dimension, degrees, n x 2; None where the array does not have both."""
+    found = []
+    for words, units in (_LONGITUDE, _LATITUDE):
+        names = [name for name, coordinate in array.coords.items() if coordinate.dims == (dim,)
+                 and (name == words[0] + "Cell" or _is_axis(array, name, words, units))]
+        if not names:
+            return None
+        coordinate = array.coords[names[0]]
+        unit = str(coordinate.attrs.get("units", "radians" if str(names[0]).endswith("Cell") else "degrees"))
+        if not unit.startswith(("deg", "rad")):
+            return None
+        values = np.asarray(coordinate.values, float)
+        found.append(np.degrees(values) if unit.startswith("rad") else values)
+    return np.stack(found, axis=1)
 
 
 def nodes(array):

@@ -87,15 +87,16 @@ def _to_mpas(grid, path, **options):
     _functions.write(path, grid, format="mpas", **options)
 
 
-def _to_xarray(grid, format="mpas", **options):
+def _to_xarray(grid, format="mpas", order="input", **options):
     """An xarray.Dataset of the conventions of a NetCDF format: mpas, ugrid, scrip ...
 
-    Options as write(). It needs xarray and netCDF4.
+    order: of the cells: "input", that of the mesh and of arrays beside it, or "curve", that of files
+    which write() makes without an order. Other options as write(). It needs xarray and netCDF4.
     """
     xarray = _labels.xarray("to_xarray()")
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "mesh.nc")
-        _functions.write(path, grid, format=format, **options)
+        _functions.write(path, grid, format=format, order=order, **options)
         return xarray.load_dataset(path)
 
 

@@ -124,6 +124,10 @@ void add_field_grids(py::module_& module) {
   weights.def("rows", &rows_of);
   weights.def("apply", &apply);
   py::class_<FieldGrid, Grid>(module, "_FieldGrid").def("__len__", &FieldGrid::size);
+  module.def("first_misplaced", [](const FieldGrid& grid, const Doubles& positions) {
+    const auto places = columns(positions);
+    return call([&] { return first_misplaced(grid.mesh, places); });
+  });
   module.def("global_raster", [](std::int64_t columns, std::int64_t rows) {
     return std::make_shared<LonLatBoxes>(lon_lat_boxes(columns, rows));
   });
