@@ -171,6 +171,14 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
                     "--cell-width");
   add_units(command, arguments.units);
   add_range(command, look.range);
+  add_choice<ScaleKind>(command, "--scale", look.scale,
+                        {{"auto", ScaleKind::automatic},
+                         {"linear", ScaleKind::linear},
+                         {"log", ScaleKind::logarithmic}},
+                        "Steps of the colour bar: linear, log or auto. auto: log for values above "
+                        "0 of a wide range, which is a factor above 4 of spacing, area and "
+                        "density, and of a field one above 1000 between its quantiles of 1% and "
+                        "99%; else linear");
   add_choice<Palette>(
       command, "--palette", look.palette, palette_names(),
       "Colours of the colour bar: viridis, cividis, magma, or diverging (blue, grey, red)");
@@ -208,11 +216,11 @@ void add_plots(CLI::App& command, DrawArguments& arguments) {
     law->excludes(command.get_option(name));
     history->excludes(command.get_option(name));
   }
-  for (const char* name : {"--range", "--palette", "--title"}) {
+  for (const char* name : {"--range", "--scale", "--palette", "--title"}) {
     law->excludes(command.get_option(name));
   }
   for (const char* name : {"MESH", "--mesh", "--at", "--points", "--lonlat", "--spacing-law",
-                           "--range", "--palette", "--title"}) {
+                           "--range", "--scale", "--palette", "--title"}) {
     history->excludes(command.get_option(name));
   }
   for (const CLI::Option* option : arguments.density_options) {

@@ -111,15 +111,21 @@ TEST_CASE("range, palette and title of a picture") {
   const std::string usual = drawn("");
   CHECK(drawn("--palette viridis") == usual);
   std::set<std::string> all{usual};
-  for (const char* options : {"--palette magma", "--palette cividis", "--palette diverging",
-                              "--range 10,20", "--range 10,30", "--title 'My grid'"})
+  for (const char* options :
+       {"--palette magma", "--palette cividis", "--palette diverging", "--range 10,20",
+        "--range 10,30", "--range 10,30 --scale log", "--title 'My grid'"})
     CHECK(all.insert(drawn(options)).second);
   CHECK(bench
             .run("draw --density " + bump_density(2) +
                  " -o b.png --range 0,2 --palette magma --title x --size 200")
             .code == 0);
   check_refusals(bench, "draw a.vtp -o b.svg",
-                 "--colour valence --range 5,7 | 2 | does not have; leave --range out");
+                 R"(
+--colour valence --range 5,7 | 2 | does not have; leave --range out
+--colour valence --scale log | 2 | does not have; leave --scale out
+--scale log --range 0,1 | 2 | --scale log needs values above 0, and the colour bar begins at 0;
+--scale decibel | 2 | --scale: decibel not in {auto,linear,log}
+)");
 }
 
 TEST_CASE("maps show the coastlines of the earth, unless they are turned off or the radius is "

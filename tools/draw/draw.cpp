@@ -104,12 +104,8 @@ Legend make_legend(Painting& painting, const DrawOptions& options) {
                       : angles                             ? degrees
                                                            : 1;
   std::for_each(painting.values.begin(), painting.values.end(), [unit](double& v) { v *= unit; });
-  painting.scale = make_scale(painting.values, options.colouring);
+  painting.scale = make_scale(painting.values, options.colouring, options.look);
   painting.scale.degrees = angles || (lengths && options.unit.name == "degrees");
-  painting.scale.palette = options.look.palette;
-  if (options.look.range) {
-    set_range(painting.scale, *options.look.range);
-  }
   return {painting.scale, classes_of(painting.values, options.colouring),
           caption_of(options, mean, flat)};
 }
@@ -306,11 +302,8 @@ void draw(const std::string& path, const SphereField& field, const Look& look) {
   require_picture(path, look.size);
   const View view = view_of(look, usual_middle);
   const DoubleVector samples = field.values(fibonacci_sphere(field_samples));
-  Scale scale = make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density);
-  scale.palette = look.palette;
-  if (look.range) {
-    set_range(scale, *look.range);
-  }
+  const Scale scale =
+      make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density, look);
   const FieldPainting painting = {field.values, scale, frame_of(view.middle)};
   write_map(path, look, view, painting.frame,
             unmarked(look.title.empty() ? field.title : look.title), {scale, {}, field.caption},

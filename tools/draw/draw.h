@@ -61,6 +61,13 @@ struct ColourRange {
 };
 
 /// The style of a picture of the sphere.
+/// How colours follow values.
+enum class ScaleKind {
+  automatic, ///< by the quantity and its range, see make_scale()
+  linear,
+  logarithmic
+};
+
 struct Look {
   Projection projection = Projection::globe;
   /// Centre of the view of the globe, default 15 E 25 N or the middle of an open mesh; for plate
@@ -75,8 +82,9 @@ struct Look {
   bool coastlines = true; ///< of the earth
   int size = 1200;        ///< width in pixels; in points for SVG and PDF. 64 to 16384
   Palette palette = Palette::viridis;
-  std::optional<ColourRange> range = {}; ///< of the colour bar; by default that of the values
-  std::string title = {};                ///< in place of the usual one
+  std::optional<ColourRange> range = {};  ///< of the colour bar; by default that of the values
+  ScaleKind scale = ScaleKind::automatic; ///< of the colour bar
+  std::string title = {};                 ///< in place of the usual one
 };
 
 struct DrawOptions {

@@ -37,23 +37,41 @@ Rgb mask_colour(double mask) {
   return colour_of(colours[static_cast<std::size_t>(std::clamp(mask, 0.0, colours.size() - 1.0))]);
 }
 
-/// Quantities that may range over powers of ten.
-bool is_magnitude(Colouring colouring) {
-  return colouring == Colouring::spacing || colouring == Colouring::area ||
-         colouring == Colouring::density || colouring == Colouring::field;
+/// The ratio of values above which a scale is logarithmic; 0 for one that never is.
+double wide_ratio(Colouring colouring) {
+  switch (colouring) {
+  case Colouring::spacing:
+  case Colouring::area:
+  case Colouring::density:
+    return 4;
+  case Colouring::field: // of any meaning: temperatures are read from a linear scale
+    return 1000;
+  default:
+    return 0;
+  }
 }
+
+/// \param low, high values of which the automatic choice takes the ratio.
+bool is_logarithmic(const Scale& scale, double low, double high) {
+  const double ratio = wide_ratio(scale.colouring);
+  return scale.low > 0 && (scale.kind == ScaleKind::logarithmic ||
+                           (scale.kind == ScaleKind::automatic && ratio > 0 && high > ratio * low));
+}
+
+double quantile(std::vector<double>& values, double p) {
+  const auto k = std::lround(p * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[static_cast<std::size_t>(k)];
+}
+
+constexpr double low_quantile = 0.01, high_quantile = 0.99;
 
 /// A few outliers must not compress the others into nearly one colour. For spacings and areas only
 /// small values are cut off, because a few wide shapes fill much of the picture.
 void trim(Scale& scale, std::vector<double>& values) {
-  const auto quantile = [&](double p) {
-    const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + k, values.end());
-    return values[static_cast<std::size_t>(k)];
-  };
-  const double low = quantile(0.01);
+  const double low = quantile(values, low_quantile);
   const bool wide = scale.colouring == Colouring::spacing || scale.colouring == Colouring::area;
-  const double high = wide ? scale.high : quantile(0.99);
+  const double high = wide ? scale.high : quantile(values, high_quantile);
   const double range = scale.position(high) - scale.position(low);
   if (values.size() < 200 || range > 0.8 || high <= low) {
     return;
@@ -79,9 +97,10 @@ Rgb Scale::colour(double value) const {
                                 : palette_colour(palette, position(value));
 }
 
-Scale make_scale(const std::vector<double>& values, Colouring colouring) {
+Scale make_scale(const std::vector<double>& values, Colouring colouring, ScaleKind kind) {
   Scale scale;
   scale.colouring = colouring;
+  scale.kind = kind;
   std::vector<double> known;
   std::copy_if(values.begin(), values.end(), std::back_inserter(known),
                [](double v) { return std::isfinite(v); });
@@ -91,7 +110,10 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring) {
   const auto [least, greatest] = std::minmax_element(known.begin(), known.end());
   scale.low = scale.least = *least;
   scale.high = scale.greatest = *greatest;
-  scale.logarithmic = is_magnitude(colouring) && scale.low > 0 && scale.high > 4 * scale.low;
+  scale.logarithmic =
+      colouring == Colouring::field
+          ? is_logarithmic(scale, quantile(known, low_quantile), quantile(known, high_quantile))
+          : is_logarithmic(scale, scale.low, scale.high);
   scale.constant = scale.high - scale.low <= 1e-6 * std::abs(scale.high);
   if (scale.constant) {
     // One colour, in the middle of a bar of positive width.
@@ -118,9 +140,24 @@ void set_range(Scale& scale, const ColourRange& range) {
   scale.low = range.low;
   scale.high = range.high;
   scale.constant = false;
-  scale.logarithmic = is_magnitude(scale.colouring) && scale.low > 0 && scale.high > 4 * scale.low;
+  scale.logarithmic = is_logarithmic(scale, scale.low, scale.high);
   scale.below = scale.least < scale.low;
   scale.above = scale.greatest > scale.high;
+}
+
+Scale make_scale(const std::vector<double>& values, Colouring colouring, const Look& look) {
+  if (look.scale != ScaleKind::automatic &&
+      (colouring == Colouring::none || has_classes(colouring)))
+    refuse("--scale is that of a colour bar, which this --colour does not have; leave --scale out");
+  Scale scale = make_scale(values, colouring, look.scale);
+  scale.palette = look.palette;
+  if (look.range)
+    set_range(scale, *look.range);
+  if (look.scale == ScaleKind::logarithmic && !scale.logarithmic)
+    refuse(message("--scale log needs values above 0, and the colour bar begins at {}; give a "
+                   "--range above 0, or leave --scale out",
+                   scale.low));
+  return scale;
 }
 
 const std::vector<std::pair<std::string, Palette>>& palette_names() {

@@ -35,6 +35,7 @@ struct Scale {
   double low = 0, high = 1;       ///< the values at the colour bar's ends
   double least = 0, greatest = 1; ///< the extreme values
   bool constant = false;          ///< true if they differ by at most a millionth: one colour
+  ScaleKind kind = ScaleKind::automatic;
   bool logarithmic = false;
   bool degrees = false;              ///< of values that are degrees
   bool below = false, above = false; ///< true if values beyond an end have the colour of the end
@@ -45,13 +46,21 @@ struct Scale {
 };
 
 /// A scale for these values, NaN excluded. Its ends are the extreme values, unless the outermost
-/// hundredth at an end would take more than a fifth of it. Logarithmic for values with a wide
-/// range.
-Scale make_scale(const std::vector<double>& values, Colouring colouring);
+/// hundredth at an end would take more than a fifth of it. Automatically it is logarithmic for
+/// values above 0 of a wide range: spacings, areas and densities of which the greatest is more than
+/// 4 times the least, and fields whose quantiles of 1 and 99% differ by a factor above 1000.
+Scale make_scale(const std::vector<double>& values, Colouring colouring,
+                 ScaleKind kind = ScaleKind::automatic);
 
 /// Makes the colour bar that of a range.
 /// \throws Error invalid_argument for a colouring that has no colour bar.
 void set_range(Scale& scale, const ColourRange& range);
+
+/// The scale of a picture, with the palette, the range and the kind that are asked for.
+/// \throws Error invalid_argument as set_range(), and for a logarithmic scale of values that are
+/// not
+///         above 0.
+Scale make_scale(const std::vector<double>& values, Colouring colouring, const Look& look);
 
 /// Whether the values are a few classes of a colour each, with a legend of these.
 bool has_classes(Colouring colouring);

@@ -183,6 +183,37 @@ TEST_CASE("a range sets the ends of the bar, in the unit of the legend") {
   }
 }
 
+TEST_CASE(
+    "colours follow a field linearly, unless it ranges over decades or another is asked for") {
+  const auto is_log = [](double low, double high, Colouring colouring) {
+    return make_scale({low, high}, colouring).logarithmic;
+  };
+  CHECK_FALSE(is_log(3, 30, Colouring::field)); // such as temperatures
+  CHECK_FALSE(is_log(0, 1e6, Colouring::field));
+  CHECK(is_log(1, 1e6, Colouring::field));
+  CHECK(is_log(1, 5, Colouring::spacing));
+  CHECK_FALSE(is_log(1, 3, Colouring::spacing));
+  CHECK_FALSE(is_log(1, 1e6, Colouring::angle));
+  std::vector<double> warm;
+  for (int k = 0; k < 1000; ++k)
+    warm.push_back(1e-4 + 0.03 * k); // a few next to 0
+  CHECK_FALSE(make_scale(warm, Colouring::field).logarithmic);
+  const auto looked = [](std::vector<double> values, Colouring colouring, const Look& look) {
+    return make_scale(values, colouring, look).logarithmic;
+  };
+  CHECK(looked({3, 30}, Colouring::field, {.scale = ScaleKind::logarithmic}));
+  CHECK_FALSE(looked({1, 1e6}, Colouring::field, {.scale = ScaleKind::linear}));
+  CHECK_FALSE(looked({1, 5}, Colouring::spacing, {.scale = ScaleKind::linear}));
+  CHECK(looked({-1, 9}, Colouring::field,
+               {.range = ColourRange{1, 9}, .scale = ScaleKind::logarithmic}));
+  CHECK(code_of([&] {
+          looked({-1, 9}, Colouring::field, {.scale = ScaleKind::logarithmic});
+        }) == ErrorCode::invalid_argument);
+  CHECK(code_of([&] {
+          looked({5, 6}, Colouring::valence, {.scale = ScaleKind::linear});
+        }) == ErrorCode::invalid_argument);
+}
+
 TEST_CASE("a palette's colours stand at equal steps, and as text in hexadecimal digits") {
   for (const auto& [name, palette] : palette_names()) {
     CAPTURE(name);
