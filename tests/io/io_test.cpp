@@ -179,15 +179,26 @@ TEST_CASE("files that other programs convert are refused with the command") {
   for (const auto& [suffix, command] :
        {std::pair<std::string, std::string>{".shp",
                                             "this is a shapefile, which Calotte does not read; "
-                                            "convert it with GDAL: ogr2ogr "},
-        {".GPKG",
-         "this is a GeoPackage, which Calotte does not read; convert it with GDAL: ogr2ogr "},
-        {".kml", "this is KML, which Calotte does not read; convert it with GDAL: ogr2ogr "},
+                                            "convert it with GDAL: ogr2ogr -t_srs EPSG:4326 "
+                                            "F.geojson F.shp"},
+        {".dbf", "this is a part of a shapefile, which Calotte does not read; convert it with "
+                 "GDAL: ogr2ogr -t_srs EPSG:4326 F.geojson F.shp"},
+        {".zip", "this is an archive, which Calotte does not read; convert it with GDAL: ogr2ogr "
+                 "-t_srs EPSG:4326 F.geojson /vsizip/F.zip"},
+        {".GPKG", "this is a GeoPackage, which Calotte does not read; convert it with GDAL: "
+                  "ogr2ogr -t_srs EPSG:4326 F.geojson F.GPKG"},
+        {".kml", "this is KML, which Calotte does not read; convert it with GDAL: ogr2ogr "
+                 "-t_srs EPSG:4326 F.geojson F.kml"},
         {".tif", "this is an image, which Calotte does not read; convert it with GDAL: "
-                 "gdal_translate -of netCDF "},
+                 "gdalwarp -t_srs EPSG:4326 -of netCDF F.tif F.nc"},
         {".png", "this is an image, which Calotte does not read; convert it with GDAL: "
-                 "gdal_translate -of netCDF "}}) {
+                 "gdalwarp -t_srs EPSG:4326 -of netCDF F.png F.nc"}}) {
     const std::string path = scratch / ("a" + suffix);
+    std::string expected = path + ": " + command;
+    for (std::size_t at; (at = expected.find(" F.")) != std::string::npos;)
+      expected.replace(at + 1, 1, scratch / "a");
+    for (std::size_t at; (at = expected.find("/F.")) != std::string::npos;)
+      expected.replace(at + 1, 1, scratch / "a");
     write_text(path, "anything");
     for (const std::function<void()>& read : std::vector<std::function<void()>>{
              [&] { read_points(path); }, [&] { read_mesh(path); }, [&] { read_region(path); },
@@ -195,7 +206,7 @@ TEST_CASE("files that other programs convert are refused with the command") {
              [&] { read_raster(path, {.quantity = RasterQuantity::height}); },
              [&] { read_cell_width(path); }, [&] { read_shapes(path); },
              [&] { read_field_grid(path); }, [&] { read_cell_width(path, {}, Surface::plane()); }})
-      CHECK(message_of(read).find(path + ": " + command) == 0);
+      CHECK(message_of(read) == expected);
   }
 }
 

@@ -27,8 +27,8 @@ std::string suffix_of(const std::string& path);
 /// Whether a name ends in .geojson or .json.
 bool is_geojson(const std::string& path);
 
-/// Refuses a file that this library does not read but other programs convert: shapes, images and
-/// GRIB, by the suffix.
+/// Refuses a file that this library does not read but other programs convert: shapes, archives of
+/// them, images and GRIB, by the suffix.
 /// \throws Error parse, with the command that converts it.
 void refuse_foreign(const std::string& path);
 
