@@ -44,13 +44,14 @@ endforeach()
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotteConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/calotteConfigVersion.cmake
         DESTINATION ${calotte_package_dir} COMPONENT development)
 
-# A shared library brings its own libraries along; an archive leaves them to `pkg-config --static`.
+# A shared library brings its own libraries along; programs link those of an archive, which stands alone.
+set(calotte_pc_requires "eigen3 >= 3.4")
+set(calotte_pc_further_libs "")
 if(calotte_type STREQUAL "STATIC_LIBRARY")
-  set(calotte_pc_requires_private "tbb, gmp")
-  set(calotte_pc_libs_private "")
+  string(APPEND calotte_pc_requires ", tbb, gmp")
   if(CALOTTE_BUILD_IO)
-    string(APPEND calotte_pc_requires_private ", netcdf, expat, zlib, tomlplusplus")
-    string(APPEND calotte_pc_libs_private " -lmetis") # METIS has no .pc file
+    string(APPEND calotte_pc_requires ", netcdf, expat, zlib, tomlplusplus")
+    set(calotte_pc_further_libs " -lmetis") # METIS has no .pc file
     install(FILES cmake/FindMETIS.cmake DESTINATION ${calotte_package_dir} COMPONENT development)
   endif()
 endif()
