@@ -414,16 +414,19 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
     out.missed = nowhere_as_wide(given.own, demanded, widths, options.tolerance);
     return out;
   }
-  const auto finer = [&](const Given& now, const Marks& may_change) {
-    return want_widths(now, demand.on_cells(now.mesh, now.own, may_change, options.gradient), way,
-                       options);
+  const auto demanded_on = [&](const Given& now, const Marks& may_change) {
+    return demand.on_cells(now.mesh, now.own, may_change, options.gradient);
   };
   const Marks all(static_cast<std::size_t>(mesh.points.cols()), 1);
-  ChangedMesh out = changed_once(given, demand, finer(given, all), options);
+  const DoubleVector demanded = demanded_on(given, all);
+  require(!wanted.region || (demanded.array() < given.own.array()).any(),
+          "the region holds no cells of the mesh; give a region inside the mesh");
+  ChangedMesh out =
+      changed_once(given, demand, want_widths(given, demanded, way, options), options);
   constexpr int most_steps = 4;
   for (int step = 1; !out.patches.empty(); ++step) {
     const Given now(out.mesh);
-    const WantedWidths widths = finer(now, new_sites(out));
+    const WantedWidths widths = want_widths(now, demanded_on(now, new_sites(out)), way, options);
     out.missed = missed(now.own, widths);
     if (out.missed == 0 || step == most_steps)
       break;

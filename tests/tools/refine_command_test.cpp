@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -94,6 +95,11 @@ TEST_CASE(
   check_success(bench, "cvt --cells 642 -o base.nc");
   CHECK(check_success(bench, "refine base.nc --cell-width 2000km -o same.nc").out ==
         "same.nc: 642 cells, 642 of 642 kept (100.00%), 0 new in 0 patches; the demand is met\n");
+  check_success(bench, "cvt --region box=0,0,20,20 --cell-width 300 --limited-area -o area.nc");
+  check_refusals(bench, "refine area.nc -o far.nc --factor 2 --region", R"(
+circle=100,-40,500km | 2 | the region holds no cells of the mesh; give a region inside the mesh
+)");
+  CHECK(!std::filesystem::exists(bench.folder() / "far.nc"));
   const Outcome small =
       bench.run("coarsen base.nc --region circle=10,50,2000km --factor 3 -o c.nc");
   CHECK(small.code == 1);
