@@ -155,13 +155,17 @@ void choose_start(Recipe& recipe, bool uniform) {
 
 /// A number of cells that widths imply, within what a grid can have.
 /// \param where " in the region", or "".
-double within_range(double implied, double least, const std::string& where = "") {
+double within_range(double implied, double least, bool plane, const std::string& where = "") {
   const double cells = std::round(implied);
   require(cells >= least && cells <= double(most_points),
           "the widths require {} cells{}, but a grid has {} to {}; give {}{}", implied, where,
           least, most_points,
-          cells < least ? "narrower ones (on the sphere widths are km, not metres)" : "wider ones",
-          where.empty() ? "" : " or a larger region");
+          plane           ? cells < least ? "narrower ones" : "wider ones"
+          : cells < least ? "narrower ones (widths are km, not metres)"
+                          : "wider ones (in a file its attribute units tells km from m)",
+          where.empty()   ? ""
+          : cells < least ? " or a larger region"
+                          : " or a smaller region");
   return cells;
 }
 
@@ -196,7 +200,7 @@ double with_boundary(const Schedule& schedule, double implied) {
 double cells_in_part(const Schedule& schedule, const Surface& asked, double implied) {
   const Recipe& recipe = schedule.recipe;
   constexpr double fewest = 40;
-  implied = within_range(implied, fewest, " in the region");
+  implied = within_range(implied, fewest, false, " in the region");
   if (recipe.limited_area) { // whose rings lie around the cells inside
     const double inside = implied_cells(*schedule.widths, asked, recipe.radius_km);
     require(inside >= 1,
@@ -219,13 +223,13 @@ double take_cells(Schedule& schedule, const Surface& asked) {
   if (!counts)
     return implied;
   if (schedule.widths->of_plane()) {
-    recipe.cells = static_cast<std::int64_t>(
-        with_boundary(schedule, within_range(implied, double(fewest_generators(recipe.surface)))));
+    recipe.cells = static_cast<std::int64_t>(with_boundary(
+        schedule, within_range(implied, double(fewest_generators(recipe.surface)), true)));
     return implied;
   }
   if (!recipe.surface.is_bounded()) {
-    recipe.cells =
-        reachable(schedule, within_range(implied, double(fewest_generators(recipe.surface))));
+    recipe.cells = reachable(
+        schedule, within_range(implied, double(fewest_generators(recipe.surface)), false));
     return implied;
   }
   recipe.cells = static_cast<std::int64_t>(cells_in_part(schedule, asked, implied));
