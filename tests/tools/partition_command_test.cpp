@@ -223,7 +223,7 @@ TEST_CASE("partition: weights are a field of the file") {
   CHECK(bench.run("partition global.nc 7 --weights areaCell").code == 0);
   check_refusals(bench, "partition global.nc 7 --weights", R"(
 absent | 2 | global.nc: no variable absent; there are latCell, lonCell, xCell, yCell, zCell,
-xVertex | 2 | xVertex has not one value for each of 900 cells
+xVertex | 2 | xVertex has 1796 values, not one for each of 900 cells
 zCell | 2 | global.nc: the weight of cell
 )");
   {

@@ -28,8 +28,9 @@ std::optional<std::size_t> find_cells(const io_detail::NetcdfReader& file, const
   std::vector<std::string> names = file.variable_names();
   std::erase_if(names, [&](const std::string& name) { return !find_cells(file, name, cells); });
   io_detail::refuse_path(file.path(), "{}; {}", problem,
-                         names.empty() ? "the file has none: give another"
-                                       : "there are " + base_detail::listed(names));
+                         names.empty()
+                             ? "no variable of the file has: give the mesh of these fields"
+                             : "there are " + base_detail::listed(names));
 }
 
 } // namespace
@@ -40,10 +41,15 @@ CellField read_cell_field(const std::string& path, const std::string& name, std:
   if (!file.has_variable(name))
     refuse_field(file, base_detail::message("no variable {}", name), cells);
   const std::optional<std::size_t> of_cells = find_cells(file, name, cells);
-  if (!of_cells)
+  if (!of_cells) {
+    std::vector<std::string> sizes;
+    for (const std::int64_t size : file.shape_of(name))
+      sizes.push_back(std::to_string(size));
     refuse_field(file,
-                 base_detail::message("{} has not one value for each of {} cells", name, cells),
+                 base_detail::message("{} has {} values, not one for each of {} cells", name,
+                                      base_detail::listed(sizes, " x ", " x "), cells),
                  cells);
+  }
   MeshField field = io_detail::read_field_at(file, name, *of_cells, choices);
   return {std::move(field.values), std::move(field.long_name), std::move(field.units)};
 }

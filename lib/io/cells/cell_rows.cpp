@@ -239,6 +239,10 @@ void refuse_netcdf(const NetcdfReader& file) {
     file.fail(
         "fields of MPAS without the mesh (xCell, yCell and zCell are missing); give the mesh, "
         "too, or add its variables with ncks -A");
+  if (const std::optional<RasterAxes> axes = raster_axes(file))
+    file.fail("a raster of {} and {}, not a mesh; calotte interpolate takes its fields to a mesh, "
+              "and widths, heights and fractions are for --cell-width of cvt and --raster of cull",
+              axes->latitude, axes->longitude);
   const std::string points = first_variable(file, [&](const std::string& name) {
     return is_longitude(file, name) && file.dimensions_of(name).size() == 1;
   });

@@ -134,6 +134,9 @@ std::string find_cell_dimension(const NetcdfReader& file, const FieldGrid& mesh)
   for (const NetcdfDimension& dimension : file.dimensions())
     if (dimension.size == mesh.size())
       found.push_back(dimension.name);
+  if (const std::int64_t of_file = file.dimension(usual); found.empty() && of_file >= 0)
+    file.fail("its {} is {}, and {} has {} cells; give the mesh of these fields", usual, of_file,
+              mesh.name, mesh.size());
   if (found.size() != 1)
     file.fail("{} of {}, the number of cells of {}; give the fields of that mesh",
               found.empty() ? "no dimension" : "several dimensions", mesh.size(), mesh.name);

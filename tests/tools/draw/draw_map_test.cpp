@@ -500,11 +500,13 @@ TEST_CASE("an unknown field is refused with the names of the fields in the file"
   };
   CHECK(message("deep", cells) == path + ": no variable deep; there are depth, index, pairs");
   CHECK(message("edges", cells) ==
-        path + ": edges has not one value for each of 42 cells; there are depth, index, pairs");
+        path +
+            ": edges has 120 values, not one for each of 42 cells; there are depth, index, pairs");
   CHECK(message("pairs", cells) == path + ": pairs has several numbers for each cell: nEdges "
                                           "(120); choose one index of each: nEdges=0");
-  CHECK(message("depth", 41) ==
-        path + ": depth has not one value for each of 41 cells; the file has none: give another");
+  CHECK(message("depth", 41) == path + ": depth has 42 values, not one for each of 41 cells; no "
+                                       "variable of the file has: give the "
+                                       "mesh of these fields");
 }
 
 TEST_CASE("each cell shows its own value of a field, and every cell is painted") {
