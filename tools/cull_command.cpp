@@ -25,6 +25,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace calotte::tools {
@@ -77,6 +78,18 @@ void require_request(const CullRequest& request) {
                    {"map of cells", maps.forward},
                    {"map of cells back", maps.backward}},
                   request.inputs());
+}
+
+/// Adds the file to a message about one of the lines of several files, see read_all_lines().
+[[noreturn]] void rethrow_with_file(const Error& error, const std::vector<std::string>& files) {
+  std::int64_t before = 0;
+  for (const std::string& file : files) {
+    const std::int64_t lines = std::ssize(read_lines(file));
+    if (error.index() < before + lines)
+      throw Error(error.code(), message("{}: {}", file, error.what()), error.index() - before);
+    before += lines;
+  }
+  throw error;
 }
 
 std::vector<Points3> read_all_lines(const std::vector<std::string>& files) {
@@ -231,7 +244,13 @@ void run(const CullRequest& request) {
     progress.stage("culling " + request.source);
     announce_files();
     options.progress = progress.bar();
-    report = cull(request.source, request.output, options);
+    try {
+      report = cull(request.source, request.output, options);
+    } catch (const Error& error) {
+      if (std::string_view(error.what()).starts_with("passage "))
+        rethrow_with_file(error, request.passages);
+      throw;
+    }
     progress.stage("the sea floor");
     if (heights)
       topography = write_topography(request, *heights, options.history);

@@ -390,8 +390,9 @@ TEST_CASE("the sea by a field, and what is refused") {
   cull(source, target, options); // the second one continues the first
   std::filesystem::remove(target);
   options.passages = {options.passages[1]};
-  CHECK(refusal(options) ==
-        "passage 0 lies on land only and reaches no sea; begin and end it in the sea");
+  CHECK(refusal(options) == "passage 0 lies on land only and reaches no sea; begin and end it in "
+                            "the sea, and give longitudes "
+                            "first");
   options = {};
   options.coast = coast_of({circle({0, 0, 1}, 0.5), circle({0, 0.1, 1}, 0.5)});
   CHECK(has(refusal(options), "times, as its polygons overlap or cross"));

@@ -521,6 +521,17 @@ TEST_CASE("cull: the coast of GSHHG, maps of cells; the land around a place as a
   const Outcome made = bench.run(region + ",134,-25 --rings 2 -o australia.nc");
   CHECK(made.code == 0);
   CHECK(has(made.out, " in the region and "));
+  check_refusals(bench, "cull global.nc -o bad.nc",
+                 "--land " CALOTTE_GSHHG
+                 "/binned_border_c.nc | 2 | a NetCDF file without polygons of "
+                 "land; give a binned one of GSHHG");
+  bench.file("inland.geojson",
+             R"({"type": "LineString", "coordinates": [[134, -25], [134.5, -25]]})");
+  check_refusals(
+      bench, "cull global.nc -o bad.nc",
+      "--land " + coast +
+          " --passage inland.geojson | 2 | inland.geojson: passage 0 lies "
+          "on land only and reaches no sea; begin and end it in the sea, and give longitudes");
   check_refusals(bench, "cut global.nc -o bad.nc",
                  "--region land=" + coast + " | 2 | give land=FILE,LON,LAT");
   check_refusals(bench, "cut global.nc -o bad.nc",

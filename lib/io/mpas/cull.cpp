@@ -142,7 +142,8 @@ std::vector<std::int64_t> stranded_passages(const SourceCells& source_cells, con
       stranded.push_back(static_cast<std::int64_t>(p));
   }
   if (!stranded.empty() && stranded.size() == options.passages.size())
-    refuse(message("passage {} lies on land only and reaches no sea; begin and end it in the sea",
+    refuse(message("passage {} lies on land only and reaches no sea; begin and end it in the sea, "
+                   "and give longitudes first",
                    stranded.front()),
            stranded.front());
   return stranded;

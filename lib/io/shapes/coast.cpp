@@ -54,9 +54,10 @@ Coast read_coast(const std::string& path) {
   require_gshhg(path);
   if (is_netcdf_file(path)) {
     const NetcdfReader file(path);
-    file.require_variable("N_bins_in_360_longitude_range",
-                          "NetCDF files have polygons of land as binned ones of GSHHG only; give "
-                          "it as a raster, if it is one, or polygons as GeoJSON");
+    for (const char* const variable : {"N_bins_in_360_longitude_range", "Id_of_GSHHS_ID"})
+      if (!file.has_variable(variable))
+        file.fail("a NetCDF file without polygons of land; give a binned one of GSHHG such as "
+                  "binned_GSHHS_l.nc, or polygons as GeoJSON; a raster is given as one");
     return read_gshhg(file);
   }
   std::ifstream in = open_input(path);
