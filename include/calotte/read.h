@@ -239,6 +239,19 @@ struct CellField {
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells,
                           const std::vector<FieldIndex>& choices = {});
 
+/// A number with a unit.
+struct Measure {
+  double value = 0;
+  std::string unit; ///< letters, or "" if there are none
+};
+
+/// Reads a number and a unit: "60km", "60 km", "60"; nothing for other text, such as a file's name.
+std::optional<Measure> measure_of(const std::string& text);
+
+/// The seconds of a time with its unit, s, min, h or d, such as "12.42h".
+/// \throws Error invalid_argument for other text, and for a time that is not positive and finite.
+double seconds_in(const std::string& text);
+
 /// The kilometres in a unit of length: 1 for km and 0.001 for m, by symbol or by name as UDUNITS
 /// spells them (km, kilometer, kilometres, m, meters, metre, ...); 1 for an empty text.
 /// \throws Error invalid_argument for any other unit.

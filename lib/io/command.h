@@ -34,15 +34,6 @@ void write_file(const std::string& path, std::string_view bytes);
 /// cells.
 inline constexpr double widest_in_km = 2000;
 
-/// A number with a unit.
-struct Measure {
-  double value = 0;
-  std::string unit; ///< letters, or "" if there are none
-};
-
-/// Reads a number and a unit: "60km", "60 km", "60"; nothing for other text, such as a file's name.
-std::optional<Measure> measure_of(const std::string& text);
-
 /// The file that a word of read_region() names; empty if it names none.
 std::string region_file(const std::string& word);
 

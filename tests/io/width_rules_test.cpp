@@ -249,10 +249,20 @@ TEST_CASE("heights of a file give the widths of waves") {
   for (const std::string period : {"12.42", "-1h", "1 week"})
     CHECK(rules.refused("[cell-width]\nby-depth = \"sea.nc\"\nperiod = \"" + period +
                         "\"\ncells = 60\nleast = 2") ==
-          " line 3: period is \"" + period +
-              "\"; give a time with its unit, s, min, h or d, such as 12.42h");
+          " line 3: period \"" + period +
+              "\" is no time; give a number and its unit, s, min, h or d, such as 12.42h");
   CHECK(rules.refused("[cell-width]\nby-depth = \"sea.nc\"\nslope = 5") ==
         " line 1: the rule needs least; give a number");
+}
+
+TEST_CASE("a distance that is farther than any place names its key") {
+  const Rules rules;
+  const std::string problem =
+      "over is 1000000 km, and distances are 0 to 300000; give km, not metres";
+  CHECK(rules.refused("[cell-width]\nby-distance = \"line.geojson\"\nnear = 60\nfar = 300\n"
+                      "over = 1000000") == " line 5: " + problem);
+  CHECK(rules.refused("[cell-width]\naround = \"line.geojson\"\nwidth = 30\nover = 1000000") ==
+        " line 4: " + problem);
 }
 
 TEST_CASE("rules of a plane: files of x and y, and a limit that is left to the domain") {

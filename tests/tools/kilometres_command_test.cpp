@@ -65,6 +65,8 @@ TEST_CASE("60 km are 163 842 cells, and 120 km 40 962") {
   const Bench bench;
   CHECK(
       has(check_success(bench, "plan --cell-width 60km").out, "\ncells                 163842\n"));
+  CHECK(has(check_success(bench, "plan --cell-width 60000m").out,
+            "\ncells                 163842\n"));
   CHECK(has(check_success(bench, "plan --cell-width 60").out,
             "\ncell width, km        59.96 to 59.96\n"));
   CHECK(
@@ -75,7 +77,7 @@ TEST_CASE("60 km are 163 842 cells, and 120 km 40 962") {
 
 TEST_CASE("a file of options takes a width in km as a number or as text") {
   const Bench bench;
-  for (const char* width : {"960", "\"960km\"", "\"960 km\""}) {
+  for (const char* width : {"960", "\"960km\"", "\"960 km\"", "\"960000m\""}) {
     bench.file("grid.toml", "cell_width = " + std::string(width) +
                                 "\noutput = \"grid.vtp\"\nsphere_radius = 1\niterations = 3\n");
     CHECK(check_success(bench, "cvt --config grid.toml").out.starts_with("grid.vtp: 642 cells, "));
@@ -88,13 +90,12 @@ TEST_CASE("a file of options takes a width in km as a number or as text") {
 TEST_CASE("widths that are none are refused") {
   const Bench bench;
   check_refusals(bench, "cvt -o mesh.vtp", R"(
---cell-width 60m | 2 | --cell-width: "60m" is in m; give km, such as 60km
 --cell-width 0km | 2 | --cell-width: "0km" is not a positive number
 --cell-width 0 | 2 | --cell-width: "0" is not a positive number
---cell-width '60 miles' | 2 | --cell-width: "60 miles" is in miles; give km, such as 60km
+--cell-width '60 miles' | 2 | --cell-width: "60 miles" is in miles; give km or m, such as 60km
 --cell-width 60.nc | 3 | 60.nc
 --cell-width 960km --transition 100km | 2 | 960 km holds no polygons; leave --transition out
---cell-width 60km --rectangle 0,0,1,1 | 2 | the plane has the unit of its coordinates; give a number in that unit
+--cell-width 60km --rectangle 0,0,1,1 | 2 | the plane has the unit of its coordinates; give a number without a unit
 --cells 12 --sphere-radius moon | 2 | --sphere-radius: "moon" is not a number; give metres, or earth
 )");
 }

@@ -20,15 +20,16 @@
 namespace calotte::tools {
 namespace {
 
-bool is_geojson(const std::string& path) {
+/// Whether the name is that of widths without polygons. Others are refused where they are read.
+bool holds_other_widths(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();
-  return suffix == ".geojson" || suffix == ".json";
+  return suffix == ".nc" || suffix == ".msh" || has_rules(path);
 }
 
 /// \param text of --cell-width, checked by width_or_file().
 void set_widths(WidthWords& words, const std::string& text) {
   const std::optional<Measure> width = measure_of(text);
-  words.uniform = width ? std::optional(width->value) : std::nullopt;
+  words.uniform = width ? std::optional(kilometres_of(*width)) : std::nullopt;
   words.with_unit = width && !width->unit.empty();
   words.file = width ? "" : text;
 }
@@ -109,14 +110,12 @@ PolygonWidths polygons_of(const WidthWords& words) {
 /// \throws Error invalid_argument for a width with a unit.
 void require_no_unit(const WidthWords& words) {
   if (words.with_unit)
-    refuse(message("--cell-width {}km: the plane has the unit of its coordinates; give a number in "
-                   "that unit",
-                   *words.uniform));
+    refuse("--cell-width: the plane has the unit of its coordinates; give a number without a unit");
 }
 
 /// \throws Error invalid_argument for widths of polygons without polygons.
 void require_polygons(const WidthWords& words) {
-  if (words.uniform || !is_geojson(words.file))
+  if (words.uniform || holds_other_widths(words.file))
     for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
                                       {words.outside, "--outside-width"},
                                       {words.transition, "--transition"}})
@@ -288,7 +287,7 @@ std::string lonlat_words(const WidthGradient& gradient) {
 
 std::string doubt_of(const WidthField& widths, const WidthWords& words) {
   const double most = widths.greatest();
-  if (most <= widest_in_km)
+  if (most <= widest_in_km || words.with_unit)
     return "";
   return message("{}cells {} km wide are large; if these are metres, give km",
                  words.uniform ? "" : words.file + ": ", most);

@@ -79,7 +79,7 @@ std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& wo
 std::vector<std::string> notes_in_plane(const WidthField& widths, const WidthWords& words,
                                         double implied, std::optional<std::int64_t> cells);
 
-/// A remark on widths that may be in metres, above 2000 km; "" for others.
+/// A remark on widths that may be in metres, above 2000 km without a unit; "" for others.
 std::string doubt_of(const WidthField& widths, const WidthWords& words);
 
 } // namespace calotte::tools

@@ -3,7 +3,7 @@
 
 #include "text/text.h"
 
-#include <calotte/read.h>
+#include <calotte/error.h>
 
 #include <CLI/App.hpp>
 
@@ -35,14 +35,20 @@ void require_positive(const std::string& option, double value, const std::string
           value, remedy);
 }
 
+double kilometres_of(const Measure& length) {
+  return length.value / (1 / kilometres_in(length.unit)); // a division by 1000 is exact more often
+}
+
 CLI::Validator kilometres() {
   return {[](std::string& text) -> std::string {
             const std::optional<Measure> width = measure_of(text);
-            if (width && !width->unit.empty() && width->unit != "km")
-              return message("\"{}\" is in {}; give km, such as 60km", text, width->unit);
             if (!width || !(width->value > 0) || !std::isfinite(width->value))
               return message("\"{}\" is not a positive number; give km, such as 60km", text);
-            text = shortest(width->value);
+            try {
+              text = shortest(kilometres_of(*width));
+            } catch (const Error&) {
+              return message("\"{}\" is in {}; give km or m, such as 60km", text, width->unit);
+            }
             return "";
           },
           "KM"};

@@ -4,6 +4,8 @@
 #include "help/cli_forward.h"
 #include "io/command.h"
 
+#include <calotte/read.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -47,7 +49,11 @@ Eigen::Vector3d direction_at(double longitude, double latitude);
 /// \param remedy "one such as 10". \throws Error invalid_argument unless positive and finite.
 void require_positive(const std::string& option, double value, const std::string& remedy);
 
-/// Positive numbers of km, for an option's transform: "60", "60km".
+/// A length in km, of km without a unit.
+/// \throws Error invalid_argument for a unit other than km and m.
+double kilometres_of(const Measure& length);
+
+/// Positive numbers of km, for an option's transform: "60", "60km", "60000m".
 CLI::Validator kilometres();
 
 /// Areas in km^2, >= 0, for an option's transform: "1000", "1000km2", "1000km^2".

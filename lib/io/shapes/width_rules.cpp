@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_rules.h"
 #include "base/message.h"
+#include "density/width_profile.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/command.h"
@@ -12,7 +13,6 @@
 #include <calotte/read.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -235,8 +235,8 @@ private:
                                 .quantity = RasterQuantity::land_fraction});
     if (table.has("profile"))
       return WidthShare(part_in(path), table.pairs("profile"));
-    if (table.take("over") != nullptr) {
-      const double over = table.number("over");
+    if (table.has("over")) {
+      const double over = distance_of(table, "over");
       return WidthShare(part_in(path), {{{0, 1}, {over, 0}}, table.smooth()});
     }
     return share_in(path);
@@ -265,9 +265,18 @@ private:
                                      : whole;
   }
 
-  static WidthProfile growing(RuleTable& table) {
+  /// A distance in km, in a plane in its unit.
+  double distance_of(RuleTable& table, const std::string& key) const {
+    const double distance = table.number(key);
+    if (surface_.is_sphere() && distance > density_detail::farthest_on_sphere)
+      table.refuse(key, message("is {} km, and distances are 0 to {}; give km, not metres",
+                                distance, density_detail::farthest_on_sphere));
+    return distance;
+  }
+
+  WidthProfile growing(RuleTable& table) const {
     const double near = table.number("near"), far = table.number("far"),
-                 over = table.number("over");
+                 over = distance_of(table, "over");
     return {{{0, near}, {over, far}}, table.smooth()};
   }
 
@@ -280,7 +289,7 @@ private:
 
   Widths around(RuleTable& table) {
     const std::string path = file(table, "around");
-    const double width = table.number("width"), over = table.number("over");
+    const double width = table.number("width"), over = distance_of(table, "over");
     return Widths::around(read_shapes(path, surface_), width, over, surface_);
   }
 
@@ -311,16 +320,11 @@ private:
 
   static double seconds(RuleTable& table) {
     const std::string text = table.text("period", "a time such as 12.42h");
-    constexpr std::array<std::pair<std::string_view, double>, 4> units{
-        {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
-    const Measure time = measure_of(text).value_or(Measure{});
-    const auto* const unit =
-        std::ranges::find(units, time.unit, [](const auto& known) { return known.first; });
-    if (unit == units.end() || !(time.value > 0) || !std::isfinite(time.value))
-      table.refuse(
-          "period",
-          message("is \"{}\"; give a time with its unit, s, min, h or d, such as 12.42h", text));
-    return time.value * unit->second;
+    try {
+      return seconds_in(text);
+    } catch (const Error& error) {
+      table.refuse("period", error.what());
+    }
   }
 
   /// A file of a rule, which must not be a file of rules: these could name each other without end.

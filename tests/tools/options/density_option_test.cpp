@@ -264,6 +264,8 @@ TEST_CASE("options of widths that do not go together are refused") {
   const TextFile file(".msh", jigsaw_grid("100"));
   CHECK(message_of(parsed({"--cell-width", file.path(), "--transition", "100"})) ==
         file.path() + " holds no polygons; leave --transition out");
+  CHECK(message_of(parsed({"--cell-width", "a.shp", "--transition", "100"}))
+            .starts_with("a.shp: this is a shapefile"));
   CHECK(message_of(parsed({"--cell-width", "absent.nc"})) != "not refused");
   CHECK(message_of(parsed({"--density-raster", "absent.nc"})) != "not refused");
   const auto check_usage = [](const std::vector<std::string>& arguments) {

@@ -8,8 +8,10 @@
 #include <calotte/read.h>
 #include <calotte/widths.h>
 
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace calotte::python {
@@ -71,6 +73,12 @@ void add_cell_width(py::module_& module) {
         return handed_over(call([&] { return evaluate(widths, sites); }));
       },
       "(n,) the widths at n x 3 directions, of a plane at n x 2 places.");
+  module.def(
+      "measure_of", [](const std::string& text) -> std::optional<std::pair<double, std::string>> {
+        const std::optional<Measure> measure = measure_of(text);
+        return measure ? std::optional(std::pair(measure->value, measure->unit)) : std::nullopt;
+      });
+  module.def("seconds_in", &seconds_in);
   module.def("kilometres_in", &kilometres_in);
   module.attr("steepest_width") = steepest_width;
   module.def("is_too_steep", &is_too_steep);
