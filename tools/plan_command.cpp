@@ -82,7 +82,7 @@ void require_request(const PlanRequest& request) {
   require_sphere_radius(request.sphere_radius.value_or(1));
   radius_for(model_of(request.model), request.sphere_radius); // throws for a contradiction
   if (!request.picture.empty() && !is_page(request.picture))
-    picture_format(request.picture);
+    picture_format(request.picture, ".html");
   if (!request.raster.empty() && (!widths.in_km() || widths.uniform))
     refuse("--raster writes widths of --cell-width FILE; give one, or leave it out");
   require_outputs(
@@ -187,7 +187,8 @@ void add_outputs(CLI::App& command, PlanRequest& request) {
       .add_option("--raster", request.raster,
                   "Write the widths as they are read or follow from rules, before --cells scales "
                   "them: NetCDF cellWidth(lat, lon) (.nc) or JIGSAW's grid (.msh)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->configurable(false);
   command.add_option("--report", request.report, "Write the same quantities to this JSON file")
       ->type_name("FILE")
       ->configurable(false);
@@ -204,14 +205,15 @@ void add_plan(CLI::App& app) {
   request->run = add_run_options(*command);
   add_outputs(*command, *request);
   request->run->config = add_config(*command, cvt_option_names());
-  set_help(*command,
-           {.common = {"START", "--cells", "--density", "--cell-width", "--outside-width",
-                       "--transition", "--region", "--limited-area", "--for", "--sphere-radius",
-                       "--units", "--config", "--threads", "--output", "--report"},
-            .examples = {
-                "calotte plan --cell-width 60km", "calotte plan --config grid.toml",
-                "calotte plan --cell-width 60km --region circle=-105,40,1000km --limited-area",
-                "calotte plan --cell-width coast.geojson --outside-width 120 --transition 4000"}});
+  set_help(
+      *command,
+      {.common = {"START", "--cells", "--density", "--cell-width", "--outside-width",
+                  "--transition", "--gradient", "--region", "--limited-area", "--for",
+                  "--sphere-radius", "--units", "--config", "--threads", "--output", "--report"},
+       .examples = {
+           "calotte plan --cell-width 60km", "calotte plan --config grid.toml",
+           "calotte plan --cell-width 60km --region circle=-105,40,1000km --limited-area",
+           "calotte plan --cell-width coast.geojson --outside-width 120 --transition 4000"}});
   command->callback([request, command] {
     request->run->options = given_options(*command);
     run(*request);

@@ -279,6 +279,7 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
   bench.file("alone.toml", "[cell-width]\naround = \"place.geojson\"\nwidth = 60\nover = 500\n");
   check_refusals(bench, "plan", R"(
 -o widths.png --density uniform | 2 | no start: give a file of points, or the number of cells (--cells N), or cell widths
+-o widths.txt --cells 162 | 2 | widths.txt: the suffix names no picture format; use .png, .svg, .pdf or .html
 -o widths.png --cells auto | 2 | --cells auto requires cell widths; give --cell-width, or a number of cells
 -o widths.png --cells 11 | 2 | 11
 -o widths.png --cells 100 --sphere-radius 0 | 2 | --sphere-radius 0 is not a positive number; give one such as

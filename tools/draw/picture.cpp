@@ -64,7 +64,7 @@ CairoSurface surface_for(PictureFormat format, int width, int height, Stream& st
 
 } // namespace
 
-PictureFormat picture_format(const std::string& path) {
+PictureFormat picture_format(const std::string& path, const std::string& other) {
   const std::size_t dot = path.find_last_of("./");
   std::string suffix = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
@@ -78,7 +78,8 @@ PictureFormat picture_format(const std::string& path) {
   if (suffix == ".pdf") {
     return PictureFormat::pdf;
   }
-  refuse_path(path, "the suffix names no picture format; use .png, .svg or .pdf");
+  refuse_path(path, "the suffix names no picture format; use .png, .svg{}",
+              other.empty() ? " or .pdf" : ", .pdf or " + other);
 }
 
 void require_picture(const std::string& path, int width) {

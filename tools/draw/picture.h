@@ -11,8 +11,9 @@ namespace calotte::tools {
 enum class PictureFormat { png, svg, pdf };
 
 /// The format of a file's suffix.
+/// \param other a suffix of which the caller makes something else, for the message; or "".
 /// \throws Error invalid_argument for an unknown suffix.
-PictureFormat picture_format(const std::string& path);
+PictureFormat picture_format(const std::string& path, const std::string& other = "");
 
 /// Validates a file name and a width before any work.
 /// \throws Error invalid_argument for a suffix that is no picture's, or a width outside 64 to

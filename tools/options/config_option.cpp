@@ -36,6 +36,12 @@ std::string type_of(const CLI::Option& option) {
 
 bool takes_file(const CLI::Option& option) { return type_of(option).ends_with("FILE"); }
 
+/// Whether a command writes the file that the option names. Other files are read.
+bool is_output(const CLI::Option& option) {
+  return option.check_name("--output") || option.check_name("--report") ||
+         option.check_name("--checkpoint");
+}
+
 /// True if a number is invalid as its value.
 bool takes_text_alone(const CLI::Option& option) {
   const std::string name = option.get_type_name();
@@ -74,11 +80,11 @@ bool is_no_file(const CLI::Option& option, const std::string& value) {
   return value == "-" || (type_of(option).starts_with("KM|") && measure_of(value));
 }
 
-/// \param folder base of relative file names.
+/// \param folder base of relative names of files that are read.
 void give(CLI::Option& option, const std::vector<ConfigValue>& values,
           const std::filesystem::path& folder) {
   for (const ConfigValue& value : values) {
-    const bool file = takes_file(option) && !is_no_file(option, value.text);
+    const bool file = takes_file(option) && !is_output(option) && !is_no_file(option, value.text);
     const bool region = type_of(option).starts_with("SHAPE|");
     option.add_result(region ? region_beside(folder, value.text)
                       : file ? (folder / value.text).string()
@@ -118,7 +124,7 @@ std::vector<std::string> known_names(CLI::App& command) {
 /// Applies the settings of a file to a command's options.
 class Application {
 public:
-  /// \param folder base of relative file names.
+  /// \param folder base of relative names of files that are read.
   Application(CLI::App& command, const std::string& path, std::filesystem::path folder,
               std::set<std::string> others = {})
       : command_(command), path_(path), folder_(std::move(folder)), others_(std::move(others)) {
@@ -216,8 +222,9 @@ std::shared_ptr<std::string> add_config(CLI::App& command, const std::set<std::s
             for (const ConfigSetting& setting : read_config(file))
               application.apply(setting);
           },
-          "TOML file with options by their long names. The command line takes precedence. File "
-          "names are relative to the TOML file")
+          "TOML file with options by their long names. The command line takes precedence. Files "
+          "that are read are relative to the TOML file, files that are written to the current "
+          "folder")
       ->type_name("FILE")
       ->configurable(false);
   return path;

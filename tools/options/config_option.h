@@ -17,7 +17,8 @@ namespace calotte::tools {
 /// - An option that may be given several times takes an array, a flag true or false. A number may
 ///   be in quotes.
 /// - Tables may group keys, one level deep; their names have no effect.
-/// - File names are relative to the folder of the TOML file. They are the values of options whose
+/// - Names of files that are read are relative to the folder of the TOML file; those of files that
+///   are written, such as --output, to the current folder. They are the values of options whose
 ///   type_name ends in FILE; words before it, as in sample|fibonacci|FILE, and "-" are no files. Of
 ///   SHAPE|FILE it is the file that the word of a region names, by region_beside().
 ///

@@ -29,6 +29,7 @@ public:
     app_.add_option("--density", densities)->allow_extra_args(false);
     app_.add_option("--start", start)->check(CLI::IsMember({"random", "spiral"}));
     app_.add_option("--sort", sort);
+    app_.add_option("-o,--output", output)->type_name("FILE");
     CLI::Option* tolerance_option = app_.add_option("--tolerance", tolerance);
     app_.add_option("--max-iterations", limit);
     app_.add_option("--iterations", iterations)->excludes(tolerance_option);
@@ -54,7 +55,7 @@ public:
 
   std::string in_folder(const std::string& file) const { return folder_ / file; }
 
-  std::string points, cell_width, region, start, sort, cells;
+  std::string points, cell_width, region, start, sort, cells, output;
   std::vector<std::string> densities;
   double tolerance = 0, half_life = 0;
   int limit = 0, iterations = 0;
@@ -179,9 +180,11 @@ TEST_CASE("a flag that is false is not given") {
   CHECK(!parser.lonlat);
 }
 
-TEST_CASE("file names are relative to the folder of the file of options") {
+TEST_CASE("files that are read are relative to the file of options, others to the folder") {
   Parser parser;
-  parser.parse("points = \"points.txt\"\ncell-width = \"widths.txt\"\nsort = \"points.txt\"\n");
+  parser.parse("points = \"points.txt\"\ncell-width = \"widths.txt\"\nsort = \"points.txt\"\n"
+               "output = \"mesh.nc\"\n");
+  CHECK(parser.output == "mesh.nc");
   CHECK(parser.points == parser.in_folder("points.txt"));
   CHECK(parser.cell_width == parser.in_folder("widths.txt"));
   CHECK(parser.sort == "points.txt"); // an option that is not allowed in a file
