@@ -54,9 +54,11 @@ struct Run {
   std::optional<CvtState> state; ///< from which it resumes
 };
 
-/// Where the state of an interrupted run goes.
+/// Where the state of an interrupted run goes: one that was resumed goes on with its file.
 std::string checkpoint_of(const CvtRequest& request) {
-  return request.checkpoint.empty() ? request.mesh + ".checkpoint" : request.checkpoint;
+  return !request.checkpoint.empty() ? request.checkpoint
+         : !request.resume.empty()   ? request.resume
+                                     : request.mesh + ".checkpoint";
 }
 
 /// Writes the state of a run to a file at intervals.

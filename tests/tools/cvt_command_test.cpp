@@ -376,7 +376,7 @@ absent.toml | 3 | cannot read absent.toml: No such file or directory
 )");
 }
 
-TEST_CASE("the examples run, from anywhere, and write beside themselves") {
+TEST_CASE("the examples run, from anywhere, and write to the current folder") {
   const Bench bench;
   fs::copy(CALOTTE_FIXTURES "/../../tools/examples", bench.folder() / "examples");
   std::set<std::string> runs;
@@ -387,7 +387,7 @@ TEST_CASE("the examples run, from anywhere, and write beside themselves") {
   for (const std::string& run : runs) {
     CAPTURE(run);
     const bool plane = run == "lake";
-    const std::string mesh = "examples/" + run + (plane ? ".vtp" : ".nc");
+    const std::string mesh = run + (plane ? ".vtp" : ".nc");
     const Outcome made =
         bench.run("cvt --config examples/" + run + ".toml --cells 162 --max-iterations 30");
     CAPTURE(made.err);
@@ -399,10 +399,10 @@ TEST_CASE("the examples run, from anywhere, and write beside themselves") {
     CHECK(made.out.starts_with(mesh + ": 162 cells, "));
     CHECK(bench.run((plane ? "check --plane " : "check ") + mesh).code == 0);
   }
-  CHECK(fs::exists(bench.folder() / "examples/x8.json"));
+  CHECK(fs::exists(bench.folder() / "x8.json"));
   // MPI-SCVT's names
-  CHECK(has(bench.file("examples/x8.nc"), "; tolerance 1e-04; max-iterations 30"));
-  CHECK(has(bench.file("examples/coastal.nc"), "cell-width of "));
+  CHECK(has(bench.file("x8.nc"), "; tolerance 1e-04; max-iterations 30"));
+  CHECK(has(bench.file("coastal.nc"), "cell-width of "));
 }
 
 TEST_CASE("cell widths determine the number of cells, give warnings, and belong to a checkpoint") {
@@ -552,6 +552,27 @@ TEST_CASE("SIGTERM and SIGINT end a run in order, and it resumes to the same bit
     CHECK(has(bench.file("report.json"), "\"converged\": false"));
     check_resumed(bench, arguments, "--threads 1 --regions 5");
   }
+}
+
+TEST_CASE("a run that is stopped again goes on with the checkpoint that it came from") {
+  const Bench bench;
+  for (const auto& [run, mesh] :
+       {std::pair<std::string, std::string>{
+            "--cells 2562 --start random --method lloyd --iterations 1000000 --keep-every 3",
+            "mesh"},
+        {"--resume mesh.vtp.checkpoint", "other"}}) {
+    const pid_t process = bench.start("cvt " + run + " -o " + mesh + ".vtp");
+    wait_until([&, mesh = mesh] {
+      return std::ranges::any_of(bench.names(), [&](const std::string& name) {
+        return name.starts_with(mesh + ".00") && name.ends_with(".vtp");
+      });
+    });
+    REQUIRE(::kill(process, SIGINT) == 0);
+    const Outcome outcome = bench.finish(process);
+    CHECK(outcome.code == 130);
+    CHECK(outcome.err.ends_with("to continue: calotte cvt --resume mesh.vtp.checkpoint\n"));
+  }
+  CHECK(!fs::exists(bench.folder() / "other.vtp.checkpoint"));
 }
 
 TEST_CASE("a checkpoint knows its command: --resume alone continues to the same bits") {
@@ -1029,9 +1050,10 @@ points.txt -o m.vtp | 2 | line 3: point 2 is outside of the domain
 --cells 100 -o m.nc --format scrip | 2 | vtp-cells
 --cells 100 --start fibonacci -o m.vtp | 2 | applies to the sphere only
 --cells 100 --density tanh:lon=0,lat=0,beta=1,alpha=1,gamma=x8 -o m.vtp | 2 | unknown key "lon"; the keys are x, y
---cell-width 0.1km -o m.vtp | 2 | --cell-width 0.1km: the plane has the unit of its coordinates; give a number
+--cell-width 0.1km -o m.vtp | 2 | --cell-width: the plane has the unit of its coordinates; give a number
 --cell-width w.geojson -o m.vtp | 2 | give NetCDF cellWidth(y, x) (.nc)
 --cell-width 1e-9 -o m.vtp | 2 | the widths require 1.1547e+18 cells
+--cell-width 100 -o m.vtp | 2 | but a grid has 3 to 1073741824; give narrower ones
 --cells 100 --walls y -o m.nc | 2 | --walls applies to a periodic box
 )");
   check_refusals(bench, "cvt", R"(

@@ -73,7 +73,7 @@ is.
 
 constexpr const char* units = R"(Units of options and files.
 
-  widths, distances      km, also written 60km; in rules and GeoJSON km; in NetCDF km or m, by the
+  widths, distances      km, also written 60km or 60000m; in rules and GeoJSON km; in NetCDF km or m, by the
                          attribute units; in a plane the unit of its coordinates
   longitude, latitude    degrees, longitude first; west and south are negative
   radius of a region     with its unit: 1000km, 1000000m or 30deg
@@ -108,13 +108,13 @@ constexpr const char* rasters =
   calotte interpolate earth.nc 720x360 -o map.nc             from a mesh to a raster, or back
   calotte plan --cell-width rules.toml --raster widths.nc    writes rules as a raster
 
-Images and GRIB: convert them with GDAL or CDO first.
+Images: gdalwarp -t_srs EPSG:4326 -of netCDF heights.tif heights.nc; GRIB: CDO or GDAL.
 )";
 
 constexpr const char* polygons =
     R"(Polygons and lines are GeoJSON in longitude and latitude; GDAL converts shapefiles and KML.
 
-  ogr2ogr area.geojson area.shp
+  ogr2ogr -t_srs EPSG:4326 area.geojson area.shp
   calotte cvt --region area.geojson --cells 5000 -o area.vtp
   calotte cvt --cell-width area.geojson --inside-width 60 --outside-width 120 --transition 4000 \
     -o earth.nc
@@ -163,8 +163,9 @@ constexpr const char* resume =
   calotte cvt --resume run.state -o earth.nc
 
 Control-C ends a run after its iteration, and a line says at once what it still writes: the mesh as
-it is, and the state to earth.nc.checkpoint. Control-C again, after a second, ends it at once,
-without a mesh.
+it is, and the state to the file of --checkpoint, or else to the one of --resume, or else to
+earth.nc.checkpoint. The file stays when the run ends: remove it. Control-C again, after a second,
+ends it at once, without a mesh.
 )";
 
 constexpr const char* examples = R"(A first grid, its check, its measures and a picture.
@@ -266,8 +267,9 @@ constexpr const char* options = R"(Options in a file, by their long names: TOML.
   cell_width = "60km"
   output = "earth.nc"
 
-The command line takes precedence. Examples are in tools/examples; rules of widths are another
-file: calotte help widths.
+The command line takes precedence. Files that are read are relative to the TOML file, files that
+are written to the current folder. Examples are in tools/examples; rules of widths are another file:
+calotte help widths.
 )";
 
 constexpr const char* converging = R"(When a run ends, and what its exit code says.
@@ -352,8 +354,7 @@ const std::vector<Guide>& guides() {
       {"threads thread parallel reproducible bit openmp mpi core cpu gpu memory speed performance "
        "time",
        threads, "performance.md"},
-      {"resume checkpoint restart interrupt interrupted kill continue", resume,
-       "performance.md troubleshooting.md"},
+      {"resume checkpoint restart interrupt interrupted kill continue", resume, "first-grid.md"},
       {"examples example tutorial start quickstart first getting-started usage howto how-to new "
        "grid mesh earth "
        "global",

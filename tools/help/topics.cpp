@@ -229,7 +229,7 @@ constexpr const char* codes =
   4  not enough memory or threads, or an internal error
   5  the run converged, but the mesh is not well-centred, or is beyond the limits of the model
      that --for names (it is written)
-  130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint
+  130, 143  stopped by SIGINT or SIGTERM; a line says how --resume continues the run
 )";
 
 /// Lists the formats of the library's table.

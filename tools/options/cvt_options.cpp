@@ -190,8 +190,11 @@ void add_files(CLI::App& command, CvtRequest& request) {
                   "calotte view --history shows them")
       ->transform(whole_number(1, std::numeric_limits<int>::max()));
   command
-      .add_option("--checkpoint", request.checkpoint,
-                  "Save the state of the run to this file, for --resume")
+      .add_option(
+          "--checkpoint", request.checkpoint,
+          "Save the state of the run to this file at intervals, for --resume. The file stays "
+          "when the run ends. Without this option an interrupted run saves its state to the "
+          "file it resumed from, or to OUTPUT.checkpoint")
       ->type_name("FILE");
   command
       .add_option("--checkpoint-every", request.checkpoint_every,
