@@ -174,6 +174,7 @@ TEST_CASE("plan: the grid of a region") {
   // A run has as many cells, and its file about as many bytes.
   const Outcome run = bench.run("cvt " + where + " --limited-area -o a.nc");
   CHECK(has(run.err, "requires " + area["cells"].dump() + " cells"));
+  CHECK(has(run.err, " E to "));
   const double bytes = static_cast<double>(fs::file_size(bench.folder() / "a.nc"));
   CHECK(area["estimates"]["mpas_bytes"].get<double>() == doctest::Approx(bytes).epsilon(0.5));
   const nlohmann::json bump = plan("--region circle=10,50,20deg --cells 1000 --density "

@@ -7,6 +7,7 @@
 #include "options/point_file.h"
 #include "options/region_option.h"
 #include "options/units_option.h"
+#include "run/extent.h"
 #include "text/text.h"
 
 #include <calotte/read.h>
@@ -216,6 +217,9 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                      fixed = input.recipe.fixed.cols() + schedule.on_lines;
   const bool follows = input.recipe.cells == 0 && input.file.name.empty();
   std::vector<std::string> notes;
+  if (!request.part.region.empty()) // longitude and latitude may be exchanged
+    notes.push_back(
+        message("{}: {}", request.part.region, words_of(extent_of(input.recipe.surface), true)));
   const std::optional<WidthField>& widths = schedule.widths;
   if (widths && widths->of_plane())
     notes =
