@@ -111,6 +111,7 @@ std::string with_option(const CLI::App& app, const std::string& text) {
       {"as an option or as the file's \"outsideWidth\"", " (--outside-width)"},
       {"as an option or as the file's \"insideWidth\"", " (--inside-width)"},
       {"as an option or as the file's \"transition\"", " (--transition)"},
+      {"as an option or as a property \"cellWidth\"", " (--inside-width)"},
       {"name one, or give a file with one", " (--raster-variable, or variable of a rule)"},
       {"if they are fractions of land or sea, say so", " (--raster-values)"},
       {"choose one index of each:", " --at"},

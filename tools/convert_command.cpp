@@ -198,7 +198,7 @@ void add_convert(CLI::App& app) {
       ->required();
   request->domain = add_bounded_domain(*command);
   request->format =
-      add_format(*command, "the radius of the points if all lie on one sphere, else 1");
+      add_format(*command, {.radius = "the radius of the points if all lie on one sphere, else 1"});
   add_depths(*command, request->depths);
   request->density = add_density(*command);
   request->config = add_config(*command);

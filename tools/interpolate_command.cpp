@@ -6,6 +6,7 @@
 #include "options/delaunay_options.h"
 #include "options/files.h"
 #include "options/mesh_source.h"
+#include "options/warning.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -15,10 +16,12 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -36,8 +39,26 @@ struct InterpolateRequest {
   std::optional<int> threads;
 };
 
+/// Refuses one number where the size of a raster is meant, and doubts columns and rows that are
+/// likely exchanged.
+void require_size(const std::string& target) {
+  const bool number = !target.empty() && target.find_first_not_of("0123456789") == target.npos;
+  if (std::error_code error; number && !std::filesystem::exists(target, error))
+    refuse(message("{} is no file; the size of a raster is its columns x its rows, such as 720x360",
+                   target));
+  if (const std::optional<FieldGrid> raster = raster_of(target)) {
+    const auto columns = raster->boxes->longitudes.size(), rows = raster->boxes->latitudes.size();
+    if (rows > columns)
+      warn(message("{} has {} columns and {} rows, whose boxes are {} degrees wide and {} high; "
+                   "the columns come first, as in 720x360",
+                   target, columns, rows, formatted("%.3g", 360.0 / static_cast<double>(columns)),
+                   formatted("%.3g", 180.0 / static_cast<double>(rows))));
+  }
+}
+
 /// Checks all options that can fail, before any input is read.
 void require_request(const InterpolateRequest& request) {
+  require_size(request.target);
   if (request.output.empty() && request.weights.empty())
     refuse("nothing to write; give -o FILE for fields, --weights FILE for weights, or both");
   if (!request.output.empty() && raster_of(request.target) && !request.output.ends_with(".nc"))
@@ -298,8 +319,7 @@ void add_weights_options(CLI::App& command, InterpolateRequest& request) {
   add_choice<WeightsFormat>(
       command, "--weights-format", request.format,
       {{"esmf", WeightsFormat::esmf}, {"scrip", WeightsFormat::scrip}},
-      "Format of the weights: esmf, as ESMF_RegridWeightGen writes them, or scrip, as CDO does. "
-      "Default: esmf.")
+      "Format of the weights: esmf, as ESMF_RegridWeightGen writes them, or scrip, as CDO does.")
       ->needs("--weights");
   command
       .add_option("--apply", request.apply,

@@ -122,7 +122,7 @@ void add_points(CLI::App& app) {
           "KIND", request->kind,
           "Points on the sphere: random, fibonacci, spiral, icosahedron (bisected), geodesic (12 "
           "points of five neighbours, all others of six), latlon or cubed (equiangular cubed "
-          "sphere). Points in a planar domain: random-plane or hexagonal")
+          "sphere); in a planar domain: random-plane or hexagonal")
       ->required()
       ->check(CLI::IsMember({"random", "fibonacci", "spiral", "icosahedron", "geodesic", "latlon",
                              "cubed", "random-plane", "hexagonal"}));

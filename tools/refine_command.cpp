@@ -332,7 +332,9 @@ void add(CLI::App& app, const Verb& verb) {
                    "field mapNewToBase has the number of each cell in BASE, or 0")
       ->type_name("FILE")
       ->required();
-  request->format = add_format(*command, "that of BASE");
+  request->format = add_format(
+      *command, {.radius = "that of BASE",
+                 .order = "input, the cells that stayed in their order, then the new ones"});
   CLI::Option* const map =
       command
           ->add_option("--cell-map", request->cell_map,

@@ -62,6 +62,16 @@ std::string output_of(const ViewRequest& request) {
                       : std::filesystem::path(request.source->path).replace_extension(".html");
 }
 
+/// A page under the name of a picture or a mesh would deceive other programs.
+void require_page_name(const ViewRequest& request) {
+  const std::string suffix = std::filesystem::path(request.output).extension();
+  if (suffix.empty() || suffix == ".html" || suffix == ".htm")
+    return;
+  refuse_path(request.output,
+              "a page is HTML; give a name that ends in .html, or draw a picture: calotte draw {}",
+              request.plan ? "or calotte plan" : message("{} -o NAME.png", request.source->path));
+}
+
 void require_request(const ViewRequest& request) {
   if (request.plan == !request.source->path.empty())
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
@@ -79,6 +89,7 @@ void require_request(const ViewRequest& request) {
   if (request.plan && !request.cells && !request.density->widths.in_km())
     refuse("a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
   require_sphere_radius(request.sphere_radius.value_or(1));
+  require_page_name(request);
   const WidthWords& widths = request.density->widths;
   if (!request.plan)
     require_input(request.source->path); // before the page, which may be named after it

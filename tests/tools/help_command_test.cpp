@@ -75,6 +75,26 @@ TEST_CASE("--help shows common options, --help-all the others and the exit codes
     CHECK(line.size() <= 100);
 }
 
+TEST_CASE("help names each default once, and the words that an option takes") {
+  const Bench bench;
+  for (const std::string& command : commands) {
+    std::string text; // without line ends and the indents after them
+    std::istringstream words(help_text(bench, command + " --help-all"));
+    for (std::string word; words >> word;)
+      text += word + " ";
+    std::size_t from = 0;
+    for (std::size_t at; (at = text.find("; default: ", from)) != std::string::npos;
+         from = at + 1) {
+      const std::size_t before = text.rfind("Default: ", at);
+      CHECK((before == std::string::npos || text.find(" --", before) < at));
+    }
+  }
+  CHECK(has(help_text(bench, "cut --help"), "default: 7"));
+  CHECK(has(help_text(bench, "plan --help"), "  --gradient "));
+  CHECK(has(help_text(bench, "points --help"), "random-plane or hexagonal"));
+  CHECK(has(help_text(bench, "refine --help"), "stayed in their order"));
+}
+
 TEST_CASE("calotte help shows the same as --help") {
   const Bench bench;
   CHECK(help_text(bench, "help") == help_text(bench, "--help"));
@@ -213,5 +233,9 @@ cvt --cells 12 -o mesh.vtp --tolerence=1e-5 | 2 | unknown option --tolerence; di
 cvt --cells 12 --tolerence 1e-5 | 2 | unknown option --tolerence; did you mean --tolerance?
 cvt --cells 12 --max_iteration 3 -o mesh.vtp | 2 | unknown option --max_iteration; did you mean --max-iterations?
 cvt --cells 12 -o mesh.vtp --frobnicate | 2 | unknown option --frobnicate; see calotte cvt --help
+cvt --cells 12 -o mesh.vtp --factor 2 | 2 | unknown option --factor; it is one of calotte refine and calotte coarsen; see calotte cvt --help
+cvt --cells 12 --o mesh.vtp | 2 | unknown option --o; did you mean -o? See calotte cvt --help
+CVT --cells 12 -o mesh.vtp | 2 | unknown command CVT; did you mean cvt? See calotte --help
+cvt --Cells 12 -o mesh.vtp | 2 | unknown option --Cells; did you mean --cells?
 )");
 }

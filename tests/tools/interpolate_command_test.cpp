@@ -143,8 +143,16 @@ raster.nc mesh.nc -o out.nc --method natural | 2 | nearest and linear only
 raster.nc 8x4 --mesh mesh.nc -o out.nc | 2 | raster.nc: no dimension of 500, the number of cells of mesh.nc
 raster.nc 8x4 --mesh raster.nc -o out.nc | 2 | raster.nc is a raster
 raster.nc 2x2 -o out.nc | 2 | 2 x 2
+raster.nc 720 -o out.nc | 2 | 720 is no file; the size of a raster is its columns x its rows, such as 720x360
 raster.nc 8x4 -o out.vtp | 2 | give a name that ends in .nc
 raster.nc mesh.nc -o raster.nc | 2 | raster.nc
 never.nc mesh.nc -o out.nc | 3 | never.nc
+)");
+  const Outcome high = bench.run("interpolate mesh.nc 8x12 --weights high.nc");
+  CHECK(high.code == 0);
+  CHECK(
+      has(high.err, "8x12 has 8 columns and 12 rows, whose boxes are 45 degrees wide and 15 high"));
+  check_refusals(bench, "info", R"(
+raster.nc | 2 | raster.nc: a raster of lat and lon, not a mesh; calotte interpolate takes its fields to a mesh
 )");
 }

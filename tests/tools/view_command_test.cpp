@@ -421,6 +421,7 @@ TEST_CASE("bad input of view is one line") {
 | 2 | give a mesh, or --plan and the widths of a grid
 nowhere/grid.vtp | 3 | cannot read nowhere/grid.vtp: No such file or directory
 grid.vtp --plan --cell-width 60km | 2 | --plan shows widths before there is a mesh; leave MESH out
+grid.vtp -o grid.png | 2 | a page is HTML; give a name that ends in .html, or draw a picture: calotte draw grid.vtp -o
 --plan | 2 | a density has no unit; give --cells N, or widths in km (--cell-width 60km)
 --plan --cell-width 60km --field nope | 2 | --plan shows widths on the sphere; leave out --field, --mesh, --at,
 --plan --cell-width 60km --sphere-radius earth | 2 | widths in km refer to --earth-radius; give it in place of

@@ -4,6 +4,7 @@
 #include "text/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <utility>
 
@@ -13,6 +14,17 @@ std::string hyphenated(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
 }
+
+namespace {
+
+/// A name without what users may write in another way: letters in upper case, underscores.
+std::string plain(std::string name) {
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return hyphenated(std::move(name));
+}
+
+} // namespace
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1); // distances of the prefixes of a to those of b
@@ -32,7 +44,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   std::string nearest;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& other : names) {
-    const std::size_t distance = edit_distance(hyphenated(name), hyphenated(other));
+    const std::size_t distance = edit_distance(plain(name), plain(other));
     if (distance < least) {
       least = distance;
       nearest = other;
@@ -41,7 +53,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   constexpr std::size_t telling = 4; // letters, of the start of a name
   if (nearest.empty() && name.size() >= telling)
     for (const std::string& other : names)
-      if (hyphenated(other).starts_with(hyphenated(name)))
+      if (plain(other).starts_with(plain(name)))
         return other;
   return nearest;
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 namespace calotte::tools {
 namespace {
@@ -25,6 +26,17 @@ std::string name_list(const std::set<CLI::Option*>& options) {
 std::string default_of(const CLI::Option& option) {
   const std::string value = option.get_default_str();
   return value.empty() ? "" : "; default: " + value;
+}
+
+/// The same, or what a sentence of the description says of it, without its reason.
+std::string default_in_words(const CLI::Option& option) {
+  constexpr std::string_view start = ". Default: ";
+  const std::string& text = option.get_description();
+  const std::size_t at = text.find(start);
+  const std::string value =
+      at == std::string::npos ? "" : first_sentence(text.substr(at + start.size()));
+  return at == std::string::npos ? default_of(option)
+                                 : "; default: " + value.substr(0, value.find_first_of(",;:"));
 }
 
 /// The words among which its value is; {} if these are not listed.
@@ -67,7 +79,7 @@ std::string values_of(const CLI::Option& option) {
 }
 
 std::string brief_text(const CLI::Option& option) {
-  return first_sentence(option.get_description()) + default_of(option) +
+  return first_sentence(option.get_description()) + default_in_words(option) +
          (option.get_required() ? " (required)" : "");
 }
 

@@ -33,9 +33,29 @@ std::string help_with(const std::string& word, const std::string& help) {
   return guide_on(word).empty() ? help : "calotte help " + word;
 }
 
+/// The commands that have an option, such as "calotte refine and calotte coarsen"; "" if none has.
+std::string commands_with(const CLI::App& main, const std::string& option) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : main.get_subcommands({}))
+    if (command->get_option_no_throw("--" + option) != nullptr)
+      names.push_back("calotte " + command->get_name());
+  return listed(names, " and ", " and ");
+}
+
+/// What to do about an option that a command does not know.
+std::string remedy_for_option(const CLI::App& main, const CLI::App& app, const std::string& name,
+                              const std::string& help) {
+  if (name.size() == 1 && app.get_option_no_throw("-" + name) != nullptr)
+    return message("did you mean -{}? See {}", name, help);
+  const std::vector<std::string> own = option_names(app);
+  const std::string others = nearest_name(name, own).empty() ? commands_with(main, name) : "";
+  return others.empty() ? remedy_for(name, own, "--", help_with(name, help))
+                        : message("it is one of {}; see {}", others, help);
+}
+
 /// \param app that was given the words, of which it does not know the options.
-std::string unknown_option(const CLI::App& app, const std::vector<std::string>& words,
-                           const std::string& help) {
+std::string unknown_option(const CLI::App& main, const CLI::App& app,
+                           const std::vector<std::string>& words, const std::string& help) {
   const auto word = std::find_if(words.begin(), words.end(), [](const std::string& text) {
     return is_option(text) && text.find_first_not_of('-') != std::string::npos;
   });
@@ -43,7 +63,7 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
     return "";
   const std::string name = bare_name(*word);
   return message("unknown option {}; {}", word->substr(0, word->find('=')),
-                 remedy_for(name, option_names(app), "--", help_with(name, help)));
+                 remedy_for_option(main, app, name, help));
 }
 
 } // namespace
@@ -67,10 +87,10 @@ std::string unknown_word(const CLI::App& app) {
     return message(
         "unknown command {}; {}", words.front(),
         remedy_for(words.front(), command_names(app), "", help_with(words.front(), help_of(app))));
-  const std::string unknown = unknown_option(app, words, "calotte --help");
+  const std::string unknown = unknown_option(app, app, words, "calotte --help");
   if (!unknown.empty() || commands.empty())
     return unknown;
-  return unknown_option(*commands.back(), commands.back()->remaining(), help_of(app));
+  return unknown_option(app, *commands.back(), commands.back()->remaining(), help_of(app));
 }
 
 } // namespace calotte::tools

@@ -64,7 +64,7 @@ void require_radius(double radius, Format format, const std::string& path) {
 
 } // namespace
 
-std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius) {
+std::shared_ptr<FormatWords> add_format(CLI::App& command, const FormatDefaults& defaults) {
   auto words = std::make_shared<FormatWords>();
   std::vector<std::string> known;
   for (const FormatInfo& info : formats())
@@ -78,11 +78,12 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
   add_sphere_radius(command, words->sphere_radius,
                     "Radius of the sphere in NetCDF files: metres, > 0, or earth (6371229 m); "
                     "default: " +
-                        default_radius);
+                        defaults.radius);
   command
       .add_option("--order", words->order,
-                  "Numbering of the cells: curve (along a space-filling curve; default of NetCDF "
-                  "files) or input (default of other files)")
+                  "Numbering of the cells: curve (along a space-filling curve) or input (the order "
+                  "of what was given); default: " +
+                      defaults.order)
       ->check(CLI::IsMember({"curve", "input"}));
   return words;
 }

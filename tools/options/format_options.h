@@ -22,9 +22,13 @@ struct FormatWords {
   std::optional<std::string> model; ///< --for
 };
 
+/// What a command does where an option is not given, for the help.
+struct FormatDefaults {
+  std::string radius = "1", order = "curve in NetCDF files, else input";
+};
+
 /// Adds --for, --format, --sphere-radius and --order.
-/// \param default_radius for the help.
-std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius = "1");
+std::shared_ptr<FormatWords> add_format(CLI::App& command, const FormatDefaults& defaults = {});
 
 /// The names of files of meshes that hold their points, for help texts.
 std::string names_of_read_meshes();
