@@ -15,7 +15,7 @@ calotte.scipy, calotte.stripy and calotte.mpas_tools replace classes and functio
 """
 import importlib
 
-from . import _display, _mesh, widths  # add the methods that are written in Python
+from . import _border, _display, _mesh, widths  # the second and third add methods that are written in Python
 from ._calotte import (CellWidth, Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors,
                        Polygons, Quality, Raster, Surface, Unit, Voronoi, Widths, __version__)
 from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Gate, Plan, Weights, bisect,
@@ -42,6 +42,9 @@ __all__ = [
     "random_points", "raster", "read", "read_fields", "read_points", "read_weights", "rectangle",
     "refine", "spiral_sphere", "threads", "to_lonlat", "voronoi", "widths", "write",
 ]
+
+_border.check_all(__all__, globals())
+_border.check_all(widths.__all__, vars(widths))
 
 _SUBMODULES = ("mpas_tools", "scipy", "stripy")
 

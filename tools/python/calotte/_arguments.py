@@ -2,7 +2,7 @@
 """What users pass, checked and brought to the form that the compiled part takes."""
 import math
 import os
-import re
+import sys
 import warnings
 
 import numpy as np
@@ -11,6 +11,15 @@ from . import _calotte, _labels
 from ._calotte import Error
 
 EARTH_RADIUS_KM = 6371.0
+_FOLDER = os.path.dirname(__file__)
+
+
+def warn(text):
+    """A warning at the line of the user that called the package."""
+    frame, depth = sys._getframe(1), 2
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
+        frame, depth = frame.f_back, depth + 1
+    warnings.warn(text, stacklevel=depth)
 
 
 def numbers(values, what):
@@ -33,9 +42,8 @@ def sphere_points(points, what="points"):
         return array
     longitudes, latitudes = np.abs(array[:, 0]), np.abs(array[:, 1])
     if len(array) > 100 and longitudes.max() <= 2 * math.pi and latitudes.max() <= math.pi / 2:
-        warnings.warn(f"all {what} are within 6.3 degrees of each other; longitudes and latitudes "
-                      "are taken as degrees, not radians, and x and y of a plane need surface=, such as plane()",
-                      stacklevel=3)
+        warn(f"all {what} are within 6.3 degrees of each other; longitudes and latitudes are taken as degrees, not "
+             "radians, and x and y of a plane need surface=, such as plane()")
     return _calotte.from_lonlat(array)
 
 
@@ -72,21 +80,22 @@ def latitudes(lower, upper, what):
 
 # ---- Numbers with units
 
-_MEASURE = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z]*)")
-
-
-def measure(text):
-    """A number and its unit, "" for none; None for other text, such as the name of a file."""
-    match = _MEASURE.fullmatch(text.strip())
-    return (float(match[1]), match[2]) if match else None
-
-
 def kilometres(value, unit, what):
     """A length in km, of a unit that the command knows as well."""
-    factors = {"": 1, "km": 1, "m": 1e-3}
-    if unit not in factors:
-        raise Error(f"{what} has the unit {unit!r}; give km or m")
-    return value * factors[unit]
+    try:
+        return value / (1 / _calotte.kilometres_in(unit))
+    except Error:
+        raise Error(f"{what} has the unit {unit!r}; give km or m") from None
+
+
+def seconds(value, what):
+    """A number of seconds, or text such as "12.42h"."""
+    if not isinstance(value, str):
+        return positive(value, what, "seconds")
+    try:
+        return _calotte.seconds_in(value)
+    except Error as error:
+        raise Error(f"{what}: {error}") from None
 
 
 def positive(value, what, unit):
@@ -100,7 +109,7 @@ def positive(value, what, unit):
 def angle(size, what, earth_radius=EARTH_RADIUS_KM):
     """A length on the sphere in radians: a number of degrees, or text such as "1000km", "30deg"."""
     if isinstance(size, str):
-        parts = measure(size)
+        parts = _calotte.measure_of(size)
         if parts is None or parts[1] not in ("km", "m", "deg"):
             raise Error(f"{what} is {size!r}; give a number of degrees, or a length such as "
                         "'1000km' or '30deg'")
@@ -112,6 +121,11 @@ def angle(size, what, earth_radius=EARTH_RADIUS_KM):
     if not 0 < radians <= math.pi:
         raise Error(f"{what} is {size!r}; give a positive number of degrees, up to 180, or a length such as '1000km'")
     return radians
+
+
+def warn_of_radians(latitudes, what):
+    if latitudes.size > 10 and np.abs(latitudes).max() <= math.pi / 2:
+        warn(f"all latitudes of {what} are within 1.6 degrees of the equator; they are taken as degrees, not radians")
 
 
 # ---- Widths and densities
@@ -126,9 +140,7 @@ def raster(values, longitudes, latitudes):
         array, lat = array[::-1], lat[::-1]
     if lon.size > 1 and math.isclose(lon[-1] - lon[0], 360):  # the first meridian is repeated
         array, lon = array[:, :-1], lon[:-1]
-    if lat.size and np.abs(lat).max() <= math.pi / 2 and lat.size > 10:
-        warnings.warn("all latitudes of the cell widths are within 1.6 degrees of the equator; "
-                      "they are taken as degrees, not radians", stacklevel=4)
+    warn_of_radians(lat, "the cell widths")
     return _calotte.CellWidth(np.ascontiguousarray(array), lon, np.ascontiguousarray(lat))
 
 
@@ -154,7 +166,7 @@ def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
         return widths
     if isinstance(widths, _calotte.CellWidth):
         return _calotte.Widths(widths)
-    if isinstance(widths, str) and (parts := measure(widths)):
+    if isinstance(widths, str) and (parts := _calotte.measure_of(widths)):
         if plane and parts[1]:
             raise Error(f"the cell width is {widths!r}; the plane has the unit of its coordinates, "
                         "so give a number in that unit")

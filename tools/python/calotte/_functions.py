@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -22,7 +21,7 @@ from ._fields import content_of
 Array = NDArray[np.float64]
 Path = str | os.PathLike[str]
 Grid = Mesh | Polygons
-DensityLike = str | Density | Callable[[Array], ArrayLike]
+DensityLike = str | Sequence[str] | Density | Callable[[Array], ArrayLike]
 WidthLike = Any  #: a number, a file, (values, lon, lat or x, y), a DataArray or a function
 SurfaceLike = Path | Surface
 Progress = Callable[[dict[str, Any]], "bool | None"]
@@ -38,7 +37,7 @@ def _count(value, what):
 
 @contextlib.contextmanager
 def threads(count: int) -> Iterator[None]:
-    """The number of threads of calls in a `with` block, in this Python thread.
+    """The number of threads of calls in a `with` block, in this Python thread. It has no effect without `with`.
 
     >>> with threads(2):
     ...     mesh = delaunay(random_points(1000))
@@ -95,8 +94,6 @@ def neighbours(mesh: Grid) -> IdLists:
     >>> len(around), around[17].tolist()
     (1000, [4, 9, 22, 30, 38, 25, 12])
     """
-    if not isinstance(mesh, (Mesh, Polygons)):
-        raise Error(f"the mesh is {type(mesh).__name__}; give a Mesh or Polygons")
     return _calotte.neighbours(content_of(mesh), mesh)
 
 
@@ -306,16 +303,24 @@ def raster(longitudes: ArrayLike, latitudes: ArrayLike | None = None) -> Raster:
     >>> len(boxes), bool(abs(boxes.areas.sum() - 4 * math.pi) < 1e-11)
     (259200, True)
     """
+    if isinstance(longitudes, (str, os.PathLike)):
+        path = os.fspath(longitudes)
+        raise Error(f"longitudes is the file {path}; give the DataArray of a NetCDF file, as xarray.open_dataarray() "
+                    "reads it; gdalwarp -t_srs EPSG:4326 -of netCDF makes one of an image")
     if latitudes is None:
         if not (hasattr(longitudes, "dims") and hasattr(longitudes, "coords")):
             raise Error("there are no latitudes; give longitudes and latitudes in degrees, two numbers of boxes, or a "
                         "DataArray with the coordinates lat and lon")
         longitudes, latitudes = _labels.nodes(longitudes)
     if np.ndim(longitudes) == 0 and np.ndim(latitudes) == 0:
-        return _calotte.global_raster(_count(longitudes, "the number of columns"),
-                                      _count(latitudes, "the number of rows"))
-    return _calotte.raster_of_nodes(_arguments.numbers(longitudes, "longitudes"),
-                                    _arguments.numbers(latitudes, "latitudes"))
+        columns, rows = _count(longitudes, "the number of columns"), _count(latitudes, "the number of rows")
+        if rows > columns:
+            _arguments.warn(f"{columns} columns and {rows} rows make boxes of {360 / max(columns, 1):.3g} x "
+                            f"{180 / max(rows, 1):.3g} degrees; the columns come first, as in raster(720, 360)")
+        return _calotte.global_raster(columns, rows)
+    longitudes, latitudes = _arguments.numbers(longitudes, "longitudes"), _arguments.numbers(latitudes, "latitudes")
+    _arguments.warn_of_radians(latitudes, "the raster")
+    return _calotte.raster_of_nodes(longitudes, latitudes)
 
 
 _METHODS = ("conservative", "linear", "nearest", "natural")
@@ -428,7 +433,7 @@ class Weights:
                                     self._method, format == "scrip")
 
 
-def interpolation_weights(source: Grid | Raster, target: ArrayLike | Grid | Raster, *,
+def interpolation_weights(source: ArrayLike | Grid | Raster, target: ArrayLike | Grid | Raster, *,
                           method: str | None = None) -> Weights:
     """The weights from the cells of one grid to those of another, on one surface, or to positions.
 
@@ -470,7 +475,7 @@ def read_weights(path: Path) -> Weights:
     return Weights(_calotte.read_grid_weights(str(path)), "of a file")
 
 
-def interpolate(source: Grid | Raster, values: ArrayLike, target: ArrayLike | Grid | Raster, *,
+def interpolate(source: ArrayLike | Grid | Raster, values: ArrayLike, target: ArrayLike | Grid | Raster, *,
                 method: str | None = None) -> Any:
     """Values at positions, or at the cells of another grid.
 
@@ -826,8 +831,8 @@ def cvt(cells: int | None = None, *, density: DensityLike | None = None,
     grid = Cvt(mesh, **report)
     _warn_of_shortfall(grid.converged, grid.cells_beyond_limits)
     if grid.off_boundary:
-        warnings.warn(f"the mesh leaves the boundary in places: {grid.off_boundary} of its outer edges do not join "
-                      "generators there; where the surface is narrower than its cells, give more cells", stacklevel=2)
+        _arguments.warn(f"the mesh leaves the boundary in places: {grid.off_boundary} of its outer edges do not join "
+                        "generators there; where the surface is narrower than its cells, give more cells")
     return grid
 
 
@@ -836,17 +841,17 @@ def _warn_of_steep(schedule, recipe):
     slope, longitude, latitude = _calotte.largest_gradient(schedule.widths, recipe.radius_km)
     limit = _calotte.steepest_width
     if _calotte.is_too_steep(scale * slope):
-        warnings.warn(f"the cell width changes by {scale * slope:.2g} km per km at longitude {longitude:.1f}, "
-                      f"latitude {latitude:.1f}, above {limit}, the limit for most models; limit it, as "
-                      f"calotte.widths.rule(widths).limit_gradient({limit}) does", stacklevel=3)
+        _arguments.warn(f"the cell width changes by {scale * slope:.2g} km per km at longitude {longitude:.1f}, "
+                        f"latitude {latitude:.1f}, above {limit}, the limit for most models; limit it, as "
+                        f"calotte.widths.rule(widths).limit_gradient({limit}) does")
 
 
 def _warn_of_shortfall(converged, beyond):
     if not converged:
-        warnings.warn("not converged; increase max_iterations or the tolerance", stacklevel=3)
+        _arguments.warn("not converged; increase max_iterations or the tolerance")
     elif beyond:
-        warnings.warn(f"not well-centred: {beyond} cells have shapes beyond the limits of models; make the "
-                      "widths or the density smoother, or give more cells", stacklevel=3)
+        _arguments.warn(f"not well-centred: {beyond} cells have shapes beyond the limits of models; make the "
+                        "widths or the density smoother, or give more cells")
 
 
 # ---- Meshes of which a part changes
@@ -1001,15 +1006,15 @@ def _changed(change, mesh, demand, surface, nearest, conservative, progress, **f
 
 def _warn_of_change(changed, missed):
     if changed.held:
-        warnings.warn(f"{changed.held} cells stay as they are, against the demand, because they are at the "
-                      "boundary or next to it", stacklevel=4)
+        _arguments.warn(f"{changed.held} cells stay as they are, against the demand, because they are at the "
+                        "boundary or next to it")
     if changed.missed:
-        warnings.warn(missed, stacklevel=4)
+        _arguments.warn(missed)
     if not changed.converged:
-        warnings.warn("not converged", stacklevel=4)
+        _arguments.warn("not converged")
     if not changed.well_centred:
         beyond = sum(patch.cells_beyond_limits for patch in changed.patches)
-        warnings.warn(f"not well-centred: {beyond} cells are beyond the limits of shapes", stacklevel=4)
+        _arguments.warn(f"not well-centred: {beyond} cells are beyond the limits of shapes")
 
 
 def refine(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | None = None,
@@ -1239,6 +1244,9 @@ def plane() -> Surface:
 
 def rectangle(lower: ArrayLike, upper: ArrayLike) -> Surface:
     """The domain between two corners (x, y) of the plane."""
+    for corner, what in ((lower, "lower"), (upper, "upper")):
+        if _arguments.numbers(corner, what).shape != (2,):
+            raise Error(f"{what} is {corner!r}; give a corner as (x, y)")
     return _calotte.rectangle(lower, upper)
 
 
@@ -1349,7 +1357,7 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
         names = _calotte.write_content(content, mesh, output)
         dropped = [name for name in names if name in content.fields]
         if dropped:
-            warnings.warn(f"{path}: the format does not hold {', '.join(dropped)}", stacklevel=2)
+            _arguments.warn(f"{path}: the format does not hold {', '.join(dropped)}")
     elif isinstance(mesh, Polygons):
         raise Error("polygons without the file that they are of cannot be written; give what "
                     "read() returns")
@@ -1465,6 +1473,6 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
                            "" if mask is None else str(mask),
                            "" if cell_map is None else str(cell_map), sphere_radius, model)
     if report["stranded_passages"]:
-        warnings.warn(f"passages on land only, without effect: {', '.join(map(str, report['stranded_passages']))}; "
-                      "begin and end them in the sea", stacklevel=2)
+        _arguments.warn(f"passages on land only, without effect: {', '.join(map(str, report['stranded_passages']))}; "
+                        "begin and end them in the sea")
     return report

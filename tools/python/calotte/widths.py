@@ -103,16 +103,17 @@ def around(lines, width, over, *, surface=None):
 def by_depth(path, least, *, cells=None, period=None, rossby=None, slope=None, variable=""):
     """Widths by the depth of the sea, from NetCDF heights(lat, lon) in metres; of land none.
 
-    period, cells: of a shallow-water wave in seconds, and the cells in its length; or
+    period, cells: of a shallow-water wave, seconds or text such as "12.42h", and the cells in its length; or
     rossby: the cells in a Rossby radius; or slope: the cells in 2 pi depth / slope.
     least: the width at the shore, and where the sea is shallow. variable: of a file with several.
     """
-    kinds = {"wavelength": cells if period else None, "rossby": rossby, "slope": slope}
+    kinds = {"wavelength": cells if period is not None else None, "rossby": rossby, "slope": slope}
     given = [(kind, value) for kind, value in kinds.items() if value is not None]
     if len(given) != 1:
         raise _calotte.Error("give period and cells, or rossby, or slope")
     (kind, value), = given
-    return _calotte.widths_by_depth(str(path), variable, kind, value, period or 0.0, least)
+    return _calotte.widths_by_depth(str(path), variable, kind, value,
+                                    0.0 if period is None else _arguments.seconds(period, "period"), least)
 
 
 def by_channel(coast, least, *, cells, widest=500, least_area=0):
