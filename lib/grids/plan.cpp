@@ -377,6 +377,7 @@ Schedule plan(Recipe recipe) {
   if (counts && all.start.kind != CvtStart::Kind::points && all.fixed.cols() > schedule.on_boundary)
     all.cells = cells_beside(all.fixed, all.cells, schedule.density, all.surface);
   require_free(all);
+  domain_detail::require_inside(all.fixed, all.surface, all.fixed.cols());
   choose_stop(all);
   all.limited_area = false;
   all.walls = {};
