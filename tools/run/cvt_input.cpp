@@ -217,18 +217,20 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                      fixed = input.recipe.fixed.cols() + schedule.on_lines;
   const bool follows = input.recipe.cells == 0 && input.file.name.empty();
   std::vector<std::string> notes;
-  if (!request.part.region.empty()) // longitude and latitude may be exchanged
-    notes.push_back(
-        message("{}: {}", request.part.region, words_of(extent_of(input.recipe.surface), true)));
   const std::optional<WidthField>& widths = schedule.widths;
+  const bool counted_cells = widths && input.recipe.surface.is_bounded() && follows;
+  if (!request.part.region.empty()) // whose longitudes and latitudes may be exchanged
+    notes.push_back(message(
+        "{}: {}{}", request.part.region, words_of(extent_of(input.recipe.surface), true),
+        !counted_cells
+            ? ""
+            : message("; it requires {} cells{}", cells,
+                      request.part.limited_area ? ", with those of the rings and some beyond"
+                                                : "")));
   if (widths && widths->of_plane())
     notes =
         notes_in_plane(*widths, words, schedule.implied_cells,
                        input.recipe.cells == 0 ? std::nullopt : std::optional(input.recipe.cells));
-  else if (widths && input.recipe.surface.is_bounded() && follows)
-    notes.push_back(
-        message("{} requires {} cells{}", request.part.region, cells,
-                request.part.limited_area ? ", with those of the rings and some beyond" : ""));
   else if (widths && !input.recipe.surface.is_bounded())
     notes = notes_on(*widths, words, input.rules.gradient,
                      input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
