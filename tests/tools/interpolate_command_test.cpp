@@ -153,6 +153,6 @@ never.nc mesh.nc -o out.nc | 3 | never.nc
   CHECK(
       has(high.err, "8x12 has 8 columns and 12 rows, whose boxes are 45 degrees wide and 15 high"));
   check_refusals(bench, "info", R"(
-raster.nc | 2 | raster.nc: a raster of lat and lon, not a mesh; calotte interpolate takes its fields to a mesh
+raster.nc | 2 | raster.nc: a raster of lat and lon, not a mesh; interpolate, cvt --cell-width and cull --raster take
 )");
 }

@@ -156,13 +156,6 @@ template <class Is> std::string first_variable(const NetcdfReader& file, const I
   return found == names.end() ? "" : *found;
 }
 
-std::string two_bounds(const NetcdfReader& file) {
-  return first_variable(file, [&](const std::string& name) {
-    const std::string bounds = is_longitude(file, name) ? find_bounds(file, name) : "";
-    return !bounds.empty() && file.shape_of(bounds).back() == 2;
-  });
-}
-
 } // namespace
 
 Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Points3& centres) {
@@ -231,18 +224,14 @@ void refuse_netcdf(const NetcdfReader& file) {
         "the triangles of FVCOM (nv) without the topology of UGRID; add a variable of cf_role "
         "\"mesh_topology\" and topology_dimension 2, whose face_node_connectivity is nv and "
         "whose node_coordinates are lon lat, and to nv the attribute start_index 1");
-  if (const std::string longitude = two_bounds(file); !longitude.empty())
-    file.fail("a grid of rows and columns, as {} has two bounds; cells need their corners, which "
-              "cdo setgridtype,curvilinear writes",
-              longitude);
+  if (const std::optional<RasterAxes> axes = raster_axes(file))
+    file.fail("a raster of {} and {}, not a mesh; interpolate, cvt --cell-width and cull --raster "
+              "take rasters, and cdo setgridtype,curvilinear makes cells of one",
+              axes->latitude, axes->longitude);
   if (file.dimension("nCells") >= 0 && !file.has_variable("xCell"))
     file.fail(
         "fields of MPAS without the mesh (xCell, yCell and zCell are missing); give the mesh, "
         "too, or add its variables with ncks -A");
-  if (const std::optional<RasterAxes> axes = raster_axes(file))
-    file.fail("a raster of {} and {}, not a mesh; calotte interpolate takes its fields to a mesh, "
-              "and widths, heights and fractions are for --cell-width of cvt and --raster of cull",
-              axes->latitude, axes->longitude);
   const std::string points = first_variable(file, [&](const std::string& name) {
     return is_longitude(file, name) && file.dimensions_of(name).size() == 1;
   });

@@ -57,7 +57,7 @@ Coast read_coast(const std::string& path) {
     for (const char* const variable : {"N_bins_in_360_longitude_range", "Id_of_GSHHS_ID"})
       if (!file.has_variable(variable))
         file.fail("a NetCDF file without polygons of land; give a binned one of GSHHG such as "
-                  "binned_GSHHS_l.nc, or polygons as GeoJSON; a raster is given as one");
+                  "binned_GSHHS_l.nc, or polygons as GeoJSON; give it as a raster, if it is one");
     return read_gshhg(file);
   }
   std::ifstream in = open_input(path);
