@@ -89,7 +89,6 @@ void require_request(const ViewRequest& request) {
   if (request.plan && !request.cells && !request.density->widths.in_km())
     refuse("a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
   require_sphere_radius(request.sphere_radius.value_or(1));
-  require_page_name(request);
   const WidthWords& widths = request.density->widths;
   if (!request.plan)
     require_input(request.source->path); // before the page, which may be named after it
@@ -97,6 +96,7 @@ void require_request(const ViewRequest& request) {
                   {request.source->path, request.source->points, request.source->mesh,
                    request.other, request.report, widths.file, widths.raster,
                    request.domain->file.value_or("")});
+  require_page_name(request);
 }
 
 /// A mesh to show, and the radius of its sphere if it is known.

@@ -91,7 +91,7 @@ TEST_CASE("help names each default once, and the words that an option takes") {
   }
   CHECK(has(help_text(bench, "cut --help"), "default: 7"));
   CHECK(has(help_text(bench, "plan --help"), "  --gradient "));
-  CHECK(has(help_text(bench, "points --help"), "random-plane or hexagonal"));
+  CHECK(has(help_text(bench, "points --help"), "in a planar domain: random-plane or"));
   CHECK(has(help_text(bench, "refine --help"), "stayed in their order"));
 }
 

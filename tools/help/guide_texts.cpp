@@ -73,8 +73,8 @@ is.
 
 constexpr const char* units = R"(Units of options and files.
 
-  widths, distances      km, also written 60km or 60000m; in rules and GeoJSON km; in NetCDF km or m, by the
-                         attribute units; in a plane the unit of its coordinates
+  widths, distances      km, also written 60km or 60000m; in rules and GeoJSON km; in NetCDF km or
+                         m, by the attribute units; in a plane the unit of its coordinates
   longitude, latitude    degrees, longitude first; west and south are negative
   radius of a region     with its unit: 1000km, 1000000m or 30deg
   --sphere-radius        metres, or earth: the radius of the sphere in NetCDF files

@@ -275,7 +275,7 @@ TEST_CASE("options of widths that do not go together are refused") {
   check_usage({"--density-raster", "a.nc", "--density", "uniform"});
   check_usage({"--density-raster", "a.nc", "--cell-width", "a.nc"});
   check_usage({"--transition", "100"});
-  for (const std::string width : {"0", "-1", "nan", "inf", "1m", ""})
+  for (const std::string width : {"0", "-1", "nan", "inf", "1deg", ""})
     check_usage({"--cell-width", "a.geojson", "--outside-width", width});
 }
 
