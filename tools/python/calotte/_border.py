@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The border of the package: the arguments of its functions are checked by their annotations.
+"""The border of the package: errors of Python about the arguments of its functions are put into words.
 
-A wrong one ends in one line that names the argument, what it is and what to give, before any work.
+A wrong argument is told by the annotations of its function, in one line that names it, what it is and what to give.
+Arguments that the function takes are not looked at, whatever their types.
 """
 import collections.abc
 import difflib
@@ -72,14 +73,15 @@ def _hint(value, kinds):
 
 
 def _require(given, kinds):
+    """Refuses the first argument that is not what its annotation says."""
     for name, value in given.items():
         expected = kinds.get(name)
         if expected and not any(_fits(value, kind) for kind in expected):
-            raise Error(f"{name} is {_described(value)}; give {_expected(expected)}{_hint(value, expected)}")
+            raise Error(f"{name} is {_described(value)}; give {_expected(expected)}{_hint(value, expected)}") from None
 
 
 def _bound(signature, name, given, words):
-    """The arguments by their names; a misspelt one is answered with the nearest that there is."""
+    """The arguments by their names; a misspelt name is answered with the nearest that there is."""
     try:
         return signature.bind(*given, **words)
     except TypeError as error:
@@ -91,7 +93,7 @@ def _bound(signature, name, given, words):
 
 
 def checked(function):
-    """The function, which first compares its arguments with its annotations."""
+    """The function, whose errors of types name the argument."""
     signature = inspect.signature(function)
     kinds = {name: _kinds(hint) for name, hint in typing.get_type_hints(function).items()}
     kinds = {each.name: kinds[each.name] for each in signature.parameters.values()
@@ -100,10 +102,12 @@ def checked(function):
     @functools.wraps(function)
     def call(*given, **words):
         bound = _bound(signature, function.__name__, given, words)
-        _require(bound.arguments, kinds)
         try:
             return function(*given, **words)
-        except TypeError as error:
+        except Error:
+            raise
+        except (AttributeError, TypeError, ValueError) as error:
+            _require(bound.arguments, kinds)
             if "incompatible function arguments" not in str(error):  # of the compiled part
                 raise
             what = ", ".join(f"{name} is {_described(value)}" for name, value in bound.arguments.items())
