@@ -241,7 +241,7 @@ CellField read_cell_field(const std::string& path, const std::string& name, std:
 
 /// A number with a unit.
 struct Measure {
-  double value = 0;
+  double value = 0; ///< in the unit
   std::string unit; ///< letters, or "" if there are none
 };
 

@@ -156,6 +156,13 @@ template <class Is> std::string first_variable(const NetcdfReader& file, const I
   return found == names.end() ? "" : *found;
 }
 
+std::string two_bounds(const NetcdfReader& file) {
+  return first_variable(file, [&](const std::string& name) {
+    const std::string bounds = is_longitude(file, name) ? find_bounds(file, name) : "";
+    return !bounds.empty() && file.shape_of(bounds).back() == 2;
+  });
+}
+
 } // namespace
 
 Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Points3& centres) {
@@ -228,6 +235,10 @@ void refuse_netcdf(const NetcdfReader& file) {
     file.fail("a raster of {} and {}, not a mesh; interpolate, cvt --cell-width and cull --raster "
               "take rasters, and cdo setgridtype,curvilinear makes cells of one",
               axes->latitude, axes->longitude);
+  if (const std::string longitude = two_bounds(file); !longitude.empty())
+    file.fail("a grid of rows and columns, as {} has two bounds; cells need their corners, which "
+              "cdo setgridtype,curvilinear writes",
+              longitude);
   if (file.dimension("nCells") >= 0 && !file.has_variable("xCell"))
     file.fail(
         "fields of MPAS without the mesh (xCell, yCell and zCell are missing); give the mesh, "
