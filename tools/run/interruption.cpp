@@ -120,16 +120,21 @@ void announce_files() { may_have_written = true; }
 Interruption::Interruption(const std::string& answer) {
   noted = 0;
   set_answer(answer);
-  handle(SIGINT, calotte_note_signal, SA_RESTART, &before_interrupt_); // a write continues
-  handle(SIGTERM, calotte_note_signal, SA_RESTART, &before_terminate_);
+  for (auto& [signal, before] : before_) {
+    handle(signal, calotte_note_signal, SA_RESTART, &before); // a write continues
+    if (before.sa_handler == SIG_IGN)
+      ::sigaction(signal, &before, nullptr);
+  }
+  // The reader of the answer may be gone, such as a tee that the same signal ended.
+  handle(SIGPIPE, SIG_IGN, 0, &before_pipe_);
 }
 
 Interruption::~Interruption() {
   // The process ends: another signal within the second must not change its exit code.
-  if (noted == 0) {
-    ::sigaction(SIGINT, &before_interrupt_, nullptr);
-    ::sigaction(SIGTERM, &before_terminate_, nullptr);
-  }
+  if (noted == 0)
+    for (const auto& [signal, before] : before_)
+      ::sigaction(signal, &before, nullptr);
+  ::sigaction(SIGPIPE, &before_pipe_, nullptr);
   recorded = "";
 }
 

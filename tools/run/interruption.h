@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <csignal>
 #include <list>
 #include <string>
+#include <utility>
 
 namespace calotte::tools {
 
@@ -16,7 +18,8 @@ void announce_files();
 
 /// During its lifetime, the first SIGINT or SIGTERM is answered with a line and recorded instead of
 /// ending the process. Others within a second count as the same, also after the lifetime; a later
-/// one ends the process at once. One object at a time.
+/// one ends the process at once. A signal that the process ignores stays ignored. A broken pipe
+/// does not end the process. One object at a time.
 class Interruption {
 public:
   /// \param answer the line on standard error, without its end.
@@ -33,7 +36,8 @@ public:
 
 private:
   std::list<std::string> answers_; ///< all, as a handler may be reading one
-  struct sigaction before_interrupt_ = {}, before_terminate_ = {};
+  std::array<std::pair<int, struct sigaction>, 2> before_{{{SIGINT, {}}, {SIGTERM, {}}}};
+  struct sigaction before_pipe_ = {};
 };
 
 } // namespace calotte::tools
