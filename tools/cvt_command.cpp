@@ -297,30 +297,26 @@ GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
   }
 }
 
-/// Compares the grid with the demands of its model, before the file is written where that has the
-/// whole mesh, and else as the file has it.
-void compare_with_demands(const CvtRequest& request, bool written, CvtOutcome& outcome,
-                          Progress& progress) {
+/// Compares the grid of a run that ended by itself with the demands of its model. The file is there
+/// first, whatever happens here.
+void compare_with_demands(const CvtRequest& request, CvtOutcome& outcome, Progress& progress) {
   const ModelNeeds* model = model_of(request.format->model);
-  const bool part = request.part.limited_area;
-  if (model == nullptr || model->demands.least_sides == 0 || planar(request) || part != written)
+  if (model == nullptr || !has_demands(*model) || planar(request) || outcome.signal != 0)
     return;
   progress.stage("comparing with the demands of " + model->name);
-  outcome.gates = part ? gates_of(*model, request.mesh,
-                                  read_mesh_file(request.mesh, nullptr, FieldChoice::none))
-                       : gates_of(*model, outcome.mesh);
+  outcome.gates =
+      gates_of(*model, request.mesh, read_mesh_file(request.mesh, nullptr, FieldChoice::none));
 }
 
 void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome,
                   Progress& progress) {
-  compare_with_demands(request, false, outcome, progress);
   const Recipe& made = run.schedule.recipe;
   WriteOptions options = write_options(request);
   options.history = history_of(request, made.stop, run.configuration, outcome.report);
   options.progress = progress.writing(request.mesh);
   outcome.grid =
       describe_cells(run.input.recipe, write_file_of(request, run, outcome.mesh, options));
-  compare_with_demands(request, true, outcome, progress);
+  compare_with_demands(request, outcome, progress);
   if (!request.report.empty())
     write_file(request.report,
                to_json(request, run.schedule, outcome.report, outcome.cells, outcome.area,
@@ -379,7 +375,11 @@ void write_hexagons(const CvtRequest& request) {
   options.history =
       message("calotte " CALOTTE_VERSION " cvt --hexagons {}{}", *request.domain->hexagons,
               request.domain->walls ? " --walls " + *request.domain->walls : "");
-  write(request.mesh, file, options);
+  {
+    Progress progress;
+    options.progress = progress.writing(request.mesh);
+    write(request.mesh, file, options);
+  }
   const std::int64_t hexagons = file.polygons ? file.polygons->size() : file.mesh->points.cols();
   std::cout << message("{}: {} hexagons, {}\n", request.mesh, hexagons,
                        kind_of_plane(file.surface().period()));
@@ -409,7 +409,7 @@ void run(CvtRequest request) {
   warn_of_result(request, schedule, outcome);
   const std::string beyond = outcome.gates ? failure_of(*outcome.gates) : "";
   if (!beyond.empty())
-    complain(beyond + "; the mesh is written");
+    complain(beyond + "; the mesh is written; smoother widths (--gradient) or more cells mend it");
   if (!outcome.report.converged)
     finish_not_converged(request, stop, outcome.report);
   if (*stop.well_centred && !outcome.report.well_centred)

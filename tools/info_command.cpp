@@ -292,11 +292,10 @@ std::string read_and_measure(const InfoRequest& request) {
                                        "plane are compared with one",
                                        given));
   if (const ModelNeeds* model = model_of(request.model)) {
-    if (file.not_voronoi.passed())
+    if (measured.cells && has_demanded_cells(file))
       measured.gates = gates_of(*model, request.source->path, file);
     else
-      measured.remarks.push_back(
-          message("the demands of {} are on Voronoi cells, so they are not compared", model->name));
+      measured.remarks.push_back(no_demanded_cells(*model));
   }
   if (!request.report.empty()) {
     progress.writing(request.report);

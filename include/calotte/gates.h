@@ -31,6 +31,12 @@ struct GridDemands {
   double waves = 0; ///< m/s: the fastest waves, see wave_step()
 };
 
+/// The longest step of the flow, s: it moves by 0.9 of a distance.
+/// \param dc the least distance of neighbours, metres. \pre demands.wind > 0.
+inline double longest_step(const GridDemands& demands, double dc) {
+  return 0.9 * dc / demands.wind;
+}
+
 /// One demand of a model, and what a grid has.
 struct Gate {
   std::string name;            ///< such as "sides of a cell, least"

@@ -153,7 +153,7 @@ std::vector<Gate> gates(const Voronoi& voronoi, const GridDemands& demands, doub
   }
   if (demands.wind > 0)
     found.push_back(on_edges("longest step, s, of flow", {}, true,
-                             [&](std::int64_t e) { return 0.9 * dc(e) / demands.wind; }));
+                             [&](std::int64_t e) { return longest_step(demands, dc(e)); }));
   if (demands.waves > 0)
     found.push_back(on_cells("longest step, s, of waves", {}, true, [&](std::int64_t i) {
       return radius * std::sqrt(8 / eigenvalue_bound(voronoi, i)) / demands.waves;

@@ -214,10 +214,10 @@ TEST_CASE("check --for names the demands that fail, and where") {
   check_success(bench, "delaunay random.txt -o random.nc");
   const Outcome failed = bench.run("check random.nc --for mpas-ocean");
   CHECK(failed.code == 1);
-  CHECK(has(failed.err,
-            "random.nc: failed: beyond the limits of MPAS-Ocean: sides of a cell, least 3, "));
-  CHECK(has(failed.err, "; dv / dc, least "));
-  CHECK(has(failed.err, "; change of width, most "));
+  CHECK(has(failed.err, "random.nc: failed: beyond the limits of MPAS-Ocean: sides of a cell, "
+                        "least: 3, the limit is 5, "));
+  CHECK(has(failed.err, "; dv / dc, least: "));
+  CHECK(has(failed.err, "; change of width, most: "));
   CHECK(bench.run("check random.nc").code == 0);
   check_success(bench, "info random.nc --for mpas-sw --report report.json");
   CHECK(has(bench.file("report.json"), "\"beyond\""));

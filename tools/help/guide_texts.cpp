@@ -278,8 +278,8 @@ constexpr const char* converging = R"(When a run ends, and what its exit code sa
   calotte cvt --cells 40962 --iterations 50 -o earth.nc
   calotte draw --history report.json -o convergence.png       of a run with --report report.json
 
-Exit code 1: not converged; 5: converged, but some shapes are beyond the limits of models. The
-grid is written.
+Exit code 1: not converged; 5: converged, but some shapes are beyond the limits of models, or the
+grid is beyond the demands of the model that --for names. The grid is written.
 )";
 
 constexpr const char* lattices = R"(Regular points and grids.

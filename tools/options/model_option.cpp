@@ -27,7 +27,7 @@ CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word) {
 CLI::Option* add_demanding_model(CLI::App& command, std::optional<std::string>& word) {
   std::vector<std::string> known;
   for (const ModelNeeds& model : models())
-    if (model.demands.least_sides > 0)
+    if (has_demands(model))
       known.push_back(model.word);
   return command
       .add_option("--for", word,
@@ -36,6 +36,8 @@ CLI::Option* add_demanding_model(CLI::App& command, std::optional<std::string>& 
                           listed(known, ", ", " or ")))
       ->check(CLI::IsMember(known));
 }
+
+bool has_demands(const ModelNeeds& model) { return model.demands.least_sides > 0; }
 
 const ModelNeeds* model_of(const std::optional<std::string>& word) {
   return word ? find_model(*word) : nullptr;

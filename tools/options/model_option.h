@@ -17,6 +17,9 @@ CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word);
 /// Adds --for to a command that compares a grid with the demands of a model.
 CLI::Option* add_demanding_model(CLI::App& command, std::optional<std::string>& word);
 
+/// Whether the demands of a model on grids are known, see gates().
+bool has_demands(const ModelNeeds& model);
+
 /// The model of a word; null without one.
 const ModelNeeds* model_of(const std::optional<std::string>& word);
 

@@ -32,7 +32,10 @@ std::string limit_words(const Gate& gate) {
              : "";
 }
 
+/// Where the worst is; "" without one.
 std::string position_words(const ModelGates& found, std::size_t k) {
+  if (found.gates[k].cell < 0)
+    return "";
   const auto at = found.positions.col(static_cast<Eigen::Index>(k));
   return lonlat_words(at[0], at[1]);
 }
@@ -51,18 +54,24 @@ Ids cell_mask_of(const std::string& path, std::int64_t cells) {
   return {};
 }
 
-ModelGates gates_of(const ModelNeeds& model, const std::string& path, const MeshFile& file) {
-  const Voronoi cells = voronoi(file);
-  const bool open = !(file.mesh && file.mesh->closed());
-  return at_positions(model,
-                      gates(cells, model, file.planet_radius,
-                            open ? cell_mask_of(path, cells.cells.cols()) : Ids()),
-                      cells.cells);
+bool has_demanded_cells(const MeshFile& file) {
+  return file.polygons ? file.not_voronoi.passed() : file.mesh && file.mesh->closed();
 }
 
-ModelGates gates_of(const ModelNeeds& model, const Mesh& mesh) {
-  const Voronoi cells = voronoi(mesh);
-  return at_positions(model, gates(cells, model), cells.cells);
+std::string no_demanded_cells(const ModelNeeds& model) {
+  return message(
+      "the demands of {} are on Voronoi cells, of the whole sphere or with the corners of "
+      "a part, so they are not compared",
+      model.name);
+}
+
+ModelGates gates_of(const ModelNeeds& model, const std::string& path, const MeshFile& file) {
+  const Voronoi cells = voronoi(file);
+  const bool may_have_rings = file.polygons && is_netcdf(file);
+  return at_positions(model,
+                      gates(cells, model, file.planet_radius,
+                            may_have_rings ? cell_mask_of(path, cells.cells.cols()) : Ids()),
+                      cells.cells);
 }
 
 std::string table(const ModelGates& found) {
@@ -76,7 +85,7 @@ std::string table(const ModelGates& found) {
   line(found.model, "grid", "limit", "beyond", "at");
   for (std::size_t k = 0; k < found.gates.size(); ++k) {
     const Gate& gate = found.gates[k];
-    line(gate.name, formatted("%.4g", gate.value), limit_words(gate),
+    line(gate.name, gate.cell < 0 ? "none" : formatted("%.4g", gate.value), limit_words(gate),
          gate.limit ? std::to_string(gate.beyond) : "", position_words(found, k));
   }
   return out.str();
@@ -88,11 +97,14 @@ nlohmann::ordered_json to_json(const ModelGates& found) {
     const Gate& gate = found.gates[k];
     nlohmann::ordered_json& json = list.emplace_back();
     json["name"] = gate.name;
-    json["value"] = gate.value;
+    if (gate.cell >= 0)
+      json["value"] = gate.value;
     if (gate.limit) {
       json["limit"] = *gate.limit;
       json["beyond"] = gate.beyond;
     }
+    if (gate.cell < 0)
+      continue;
     const auto at = found.positions.col(static_cast<Eigen::Index>(k));
     json["cell"] = gate.cell;
     json["at"] = {at[0], at[1]};
@@ -104,9 +116,9 @@ std::string failure_of(const ModelGates& found) {
   std::vector<std::string> failures;
   for (std::size_t k = 0; k < found.gates.size(); ++k)
     if (const Gate& gate = found.gates[k]; !gate.passed())
-      failures.push_back(message("{} {}, {} beyond {}, the worst at {}", gate.name,
-                                 formatted("%.4g", gate.value), gate.beyond,
-                                 formatted("%.4g", *gate.limit), position_words(found, k)));
+      failures.push_back(message("{}: {}, the limit is {}, {} beyond, the worst at {}", gate.name,
+                                 formatted("%.4g", gate.value), formatted("%.4g", *gate.limit),
+                                 gate.beyond, position_words(found, k)));
   return failures.empty()
              ? ""
              : message("beyond the limits of {}: {}", found.model, listed(failures, "; ", "; "));

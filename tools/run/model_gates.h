@@ -15,19 +15,22 @@ namespace calotte::tools {
 /// Demands with the positions of what is worst.
 struct ModelGates {
   std::string model;       ///< its name
-  std::vector<Gate> gates; ///< none for a model without demands
+  std::vector<Gate> gates; ///< see gates()
   Points2 positions;       ///< 2 x gates: longitude and latitude of Gate::cell, degrees
 };
 
 /// The mask of the cells of a limited area; empty if the file has none.
 Ids cell_mask_of(const std::string& path, std::int64_t cells);
 
-/// Compares a file's grid of the sphere with the demands.
-/// \throws Error as voronoi(file).
-ModelGates gates_of(const ModelNeeds& model, const std::string& path, const MeshFile& file);
+/// Whether a file of the sphere has the cells that demands are on: Voronoi cells of the whole
+/// sphere or, with their corners, of a part.
+bool has_demanded_cells(const MeshFile& file);
 
-/// The same of a closed mesh. \pre the model has demands.
-ModelGates gates_of(const ModelNeeds& model, const Mesh& mesh);
+/// A clause on a file without them.
+std::string no_demanded_cells(const ModelNeeds& model);
+
+/// Compares a file's grid with the demands. \pre it has such cells, and its mesh is Delaunay.
+ModelGates gates_of(const ModelNeeds& model, const std::string& path, const MeshFile& file);
 
 /// A table: the grid's worst, the limit, the number beyond it, the position.
 std::string table(const ModelGates& found);
