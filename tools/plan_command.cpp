@@ -126,6 +126,8 @@ GridPlan make_plan(const PlanRequest& request) {
     });
     require_used(*request.run, schedule);
     plan = make_grid_plan(*request.run, input, schedule, radius_of(request));
+    if (request.model.value_or("mpas-atmosphere") != "mpas-atmosphere")
+      plan.model.reset();
     plan.width_seconds = schedule.widths ? seconds : 0;
     if (!request.picture.empty()) {
       progress.writing(request.picture);
@@ -148,8 +150,9 @@ GridPlan make_plan(const PlanRequest& request) {
 /// \throws Error invalid_argument for other options.
 void print_hexagons(const PlanRequest& request) {
   require_no_run(*request.run, {"for"});
-  if (!request.report.empty() || !request.picture.empty()) // which are no options of a run
-    refuse("--hexagons needs no run; leave --report and --output out");
+  if (!request.report.empty() || !request.picture.empty() ||
+      !request.raster.empty()) // which are no options of a run
+    refuse("--hexagons needs no run; leave --report, --output and --raster out");
   const MeshFile file = hexagons_of(*request.run->domain);
   const std::int64_t cells = file.polygons ? file.polygons->size() : file.mesh->points.cols();
   std::cout << row("cells", 22, message("{} regular hexagons", cells));

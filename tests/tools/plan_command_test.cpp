@@ -284,9 +284,9 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
 -o widths.png --cells 11 | 2 | 11
 -o widths.png --cells 100 --sphere-radius 0 | 2 | --sphere-radius 0 is not a positive number; give one such as
 -o widths.png --cells 100 --for mpas-ocean --sphere-radius 1 | 2 | --for mpas-ocean needs a sphere with a radius of 6371220
---hexagons 6,8,10 --report plan.json | 2 | --hexagons needs no run; leave --report and --output out
---hexagons 6,8,10 -o widths.png | 2 | --hexagons needs no run; leave --report and --output out
---hexagons 6,8,10 --raster a.nc | 2 | without a run; leave --raster out
+--hexagons 6,8,10 --report plan.json | 2 | --hexagons needs no run; leave --report, --output and --raster out
+--hexagons 6,8,10 -o widths.png | 2 | --hexagons needs no run; leave --report, --output and --raster out
+--hexagons 6,8,10 --raster a.nc | 2 | --hexagons needs no run; leave --report, --output and --raster out
 --hexagons 6,8,10 --units km | 2 | without a run; leave --units out
 --hexagons 6,8,10 --sphere-radius earth | 2 | without a run; leave --sphere-radius out
 --hexagons 6,8,10 --cells 48 | 2 | without a run; leave --cells out

@@ -13,12 +13,6 @@
 namespace calotte::tools {
 namespace {
 
-/// Metres of the distance of cells for a second of the step.
-double metres_per_second() {
-  constexpr double part = 0.9; // of the distance that the flow may cross, see gates()
-  return find_model("mpas-atmosphere")->demands.wind / part;
-}
-
 [[noreturn]] void refuse_budget(const std::string& words, const std::string& why) {
   refuse(message("--budget {}: {}; give memory such as 24GiB, a number such as 500000-cells, or a "
                  "step such as step=10s",
@@ -42,7 +36,8 @@ double value_of(const std::string& words, const std::string& text,
 
 double longest_step(double width, double least_spacing) {
   constexpr double metres_per_km = 1000;
-  return width * metres_per_km * least_spacing / metres_per_second();
+  return longest_step(find_model("mpas-atmosphere")->demands,
+                      width * metres_per_km * least_spacing);
 }
 
 double width_of_step(double seconds, double least_spacing) {
@@ -51,24 +46,29 @@ double width_of_step(double seconds, double least_spacing) {
 
 Budget budget_of(const std::string& words, const ModelMemory& memory) {
   constexpr std::string_view step = "step=", cells = "-cells";
-  constexpr double most = 1 << 30, least = 12;
-  if (words.starts_with(step))
-    return {{}, value_of(words, words.substr(step.size()), {{"s", 1}, {"min", 60}})};
-  const bool counts = words.ends_with(cells);
-  const double number =
-      counts ? value_of(words, words.substr(0, words.size() - cells.size()), {{"", 1}})
-             : value_of(words, words,
-                        {{"MB", 1e6},
-                         {"GB", 1e9},
-                         {"TB", 1e12},
-                         {"MiB", 0x1p20},
-                         {"GiB", 0x1p30},
-                         {"TiB", 0x1p40}}) /
-                   memory.of(1);
-  if (!(number >= least && number <= most))
+  Budget budget;
+  if (words.starts_with(step)) {
+    budget.step = value_of(words, words.substr(step.size()), {{"s", 1}, {"min", 60}});
+    return budget;
+  }
+  double number = 0;
+  if (words.ends_with(cells)) {
+    number = value_of(words, words.substr(0, words.size() - cells.size()), {{"", 1}});
+  } else {
+    budget.bytes = value_of(words, words,
+                            {{"MB", 1e6},
+                             {"GB", 1e9},
+                             {"TB", 1e12},
+                             {"MiB", 0x1p20},
+                             {"GiB", 0x1p30},
+                             {"TiB", 0x1p40}});
+    number = *budget.bytes / memory.of(1);
+  }
+  if (!(number >= fewest_cells && number <= most_cells))
     refuse_budget(words, message("{} cells are out of range, {} to {}", formatted("%.0f", number),
-                                 least, most));
-  return {static_cast<std::int64_t>(number), {}};
+                                 fewest_cells, most_cells));
+  budget.cells = static_cast<std::int64_t>(number);
+  return budget;
 }
 
 } // namespace calotte::tools

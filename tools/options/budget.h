@@ -16,6 +16,7 @@ struct ModelMemory {
   double bytes_per_level = 1500; ///< of a cell
 
   double of(double cells) const { return cells * levels * bytes_per_level; }
+  bool operator==(const ModelMemory&) const = default;
 };
 
 /// The longest step of MPAS-Atmosphere, s: 0.9 times the least distance of cells over its fastest
@@ -28,8 +29,12 @@ double width_of_step(double seconds, double least_spacing);
 /// What a grid may cost: a number of cells, or the step of the model.
 struct Budget {
   std::optional<std::int64_t> cells; ///< of a number, or of memory
+  std::optional<double> bytes;       ///< of memory
   std::optional<double> step;        ///< s
 };
+
+/// The numbers of cells that a run can make.
+inline constexpr double fewest_cells = 12, most_cells = 1 << 30;
 
 /// The budget of its words: "24GiB", "24GB", "500000-cells", "step=10s".
 /// \throws Error invalid_argument.

@@ -100,6 +100,12 @@ void require_request(const CvtRequest& request) {
   if (planar(request))
     require_plane(request, options);
   require_region_format(request, options);
+  const bool of_memory =
+      !request.budget.empty() && budget_of(request.budget, request.memory).bytes.has_value();
+  if (!of_memory && !(request.memory == ModelMemory()))
+    refuse(
+        "--levels and --bytes-per-level apply to a budget of memory, such as --budget 24GiB; leave "
+        "them out");
   if (request.units && !request.density->widths.in_km())
     refuse("--units is the unit of widths; leave it out, or give --cell-width");
   const WidthWords& widths = request.density->widths;

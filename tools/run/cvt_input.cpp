@@ -128,12 +128,18 @@ std::int64_t cells_of_budget(const CvtRequest& request, const CvtInput& input, P
   const Budget budget = budget_of(request.budget, request.memory);
   if (budget.cells)
     return *budget.cells;
-  const Schedule demanded = plan_of(input, progress);
-  const double width = width_of_step(*budget.step, demanded.recipe.stop.least_spacing),
+  const double spacing = input.recipe.stop.least_spacing;
+  if (!(spacing > 0))
+    refuse(message("--least-spacing {} keeps no distance for --budget {}; leave it out", spacing,
+                   request.budget));
+  CvtInput any = input; // a number, so that widths of any size are taken
+  constexpr std::int64_t number = 1000;
+  any.recipe.cells = number;
+  const Schedule demanded = plan_of(any, progress);
+  const double width = width_of_step(*budget.step, spacing),
                factor = width / demanded.widths->least(),
                cells = demanded.implied_cells / (factor * factor);
-  constexpr double most = 1 << 30, least = 12;
-  if (!(cells >= least && cells <= most))
+  if (!(cells >= fewest_cells && cells <= most_cells))
     refuse(message("--budget {} needs {} cells, with widths from {} km on; give another step",
                    request.budget, formatted("%.3g", cells), formatted("%.3g", width)));
   return static_cast<std::int64_t>(cells);

@@ -116,7 +116,8 @@ GridPlan make_grid_plan(const CvtRequest& request, const CvtInput& input, const 
   plan.costs = cvt_costs(plan.cells, schedule.density, made.surface, plan.threads,
                          given_evaluations(schedule, plan.cells));
   plan.memory = machine_memory();
-  plan.of_model = request.memory;
+  if (asked.surface.is_sphere())
+    plan.model = request.memory;
   plan.least_spacing = made.stop.least_spacing;
   return plan;
 }
@@ -154,7 +155,7 @@ std::string grid_rows(const GridPlan& plan, const Unit& unit) {
 
 /// The longest step of MPAS-Atmosphere, s; nothing in a plane and where the radius is not known.
 std::optional<double> step_of(const GridPlan& plan) {
-  if (!plan.radius_km)
+  if (!plan.radius_km || !plan.model)
     return std::nullopt;
   return longest_step(plan.spacing.least * *plan.radius_km, plan.least_spacing);
 }
@@ -167,11 +168,10 @@ std::string estimate_rows(const GridPlan& plan) {
       plan_row("  MPAS file (.nc)", data_size(plan.costs.mpas_file)) +
       plan_row("  triangles (.vtp)", data_size(plan.costs.vtp_file));
   if (const std::optional<double> step = step_of(plan))
-    lines +=
-        plan_row("MPAS-Atmosphere",
-                 message("steps up to {} s; {} of memory with {} levels", formatted("%.3g", *step),
-                         data_size(plan.of_model.of(static_cast<double>(plan.cells))),
-                         plan.of_model.levels));
+    lines += plan_row(
+        "MPAS-Atmosphere",
+        message("steps up to {} s; {} of memory with {} levels", formatted("%.3g", *step),
+                data_size(plan.model->of(static_cast<double>(plan.cells))), plan.model->levels));
   return lines;
 }
 
@@ -257,8 +257,8 @@ std::string to_json(const GridPlan& plan) {
                        {"vtp_bytes", plan.costs.vtp_file}};
   if (const std::optional<double> step = step_of(plan))
     json["model"] = {{"step_seconds", *step},
-                     {"levels", plan.of_model.levels},
-                     {"memory_bytes", plan.of_model.of(static_cast<double>(plan.cells))}};
+                     {"levels", plan.model->levels},
+                     {"memory_bytes", plan.model->of(static_cast<double>(plan.cells))}};
   return json.dump(2) + "\n";
 }
 

@@ -36,9 +36,9 @@ struct GridPlan {
   std::vector<RuleShare> rules;    ///< of the widths, if there are any
   int threads = 1;
   CvtCosts costs;
-  double memory = 0;        ///< of this machine, bytes
-  ModelMemory of_model;     ///< of the model that runs on the grid
-  double least_spacing = 0; ///< of cells over their width, that the run keeps
+  double memory = 0;                ///< of this machine, bytes
+  std::optional<ModelMemory> model; ///< MPAS-Atmosphere, unless the grid is for another one
+  double least_spacing = 0;         ///< of cells over their width, that the run keeps
 };
 
 /// \param radius_km of the sphere where no widths give it, if it is known.
