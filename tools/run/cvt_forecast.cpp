@@ -52,13 +52,12 @@ Decay fit(std::span<const CvtIteration> iterations, Norm norm) {
   return {slope, mean_y + slope * (static_cast<double>(iterations.size()) - 1 - mean_x)};
 }
 
-/// The usual rest of a last descent to 1e-4, whose norm falls at its end: these took 19 to 24
-/// iterations in graded runs with 16 000 to 600 000 cells. Infinite for others.
-double usual_rest(const CvtProgress& progress, const CvtAction& action) {
-  constexpr double usual = 25, least = 5, tolerance = 1e-4;
-  if (action.kind != CvtAction::Kind::converge || action.tolerance < tolerance)
-    return std::numeric_limits<double>::infinity();
-  return std::max(usual - progress.iterations_of_descent, least);
+double mean_seconds(std::span<const CvtIteration> iterations) {
+  double seconds = 0;
+  for (const CvtIteration& iteration : iterations)
+    seconds +=
+        (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
+  return seconds;
 }
 
 } // namespace
@@ -67,14 +66,9 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const CvtAction& a
   const std::span<const CvtIteration> iterations = recent(progress);
   if (iterations.empty())
     return std::nullopt;
-  double seconds = 0;
-  for (const CvtIteration& iteration : iterations)
-    seconds +=
-        (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
+  const double seconds = mean_seconds(iterations);
   // The trials of the last step may exceed the limit.
-  const double to_limit =
-      std::min<double>(std::max(action.max_iterations - progress.iterations_of_descent, 0),
-                       usual_rest(progress, action));
+  const double to_limit = std::max(action.max_iterations - progress.iterations_of_descent, 0);
   if (action.norm == Norm::none)
     return Forecast{seconds * to_limit, false};
   const Decay decay = fit(iterations, action.norm);
@@ -126,12 +120,25 @@ std::vector<int> descents_of(const Schedule& schedule) {
   return descents;
 }
 
+/// The usual seconds of the rest of a last descent to 1e-4, whose norm falls at its end: these took
+/// 19 to 24 iterations in graded runs with 16 000 to 600 000 cells. Infinite for others.
+double usual_rest(const CvtProgress& progress, const Schedule& schedule) {
+  constexpr double usual = 25, least = 5, tolerance = 1e-4;
+  const CvtAction& action = action_of(progress, schedule);
+  const int done = progress.iterations_of_descent;
+  if (action.kind != CvtAction::Kind::converge || action.tolerance < tolerance ||
+      schedule.recipe.method != Method::automatic || done > 2 * usual)
+    return std::numeric_limits<double>::infinity();
+  return std::max(usual - done, least) * mean_seconds(recent(progress));
+}
+
 } // namespace
 
 std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& schedule) {
-  const auto descent = forecast(progress, action_of(progress, schedule));
+  auto descent = forecast(progress, action_of(progress, schedule));
   if (!descent)
     return std::nullopt;
+  descent->seconds = std::min(descent->seconds, usual_rest(progress, schedule));
   const double scale = pace(progress);
   const std::vector<int> descents = descents_of(schedule);
   if (progress.bisections_left == 0 && progress.rounds_left == 0 && descents.back() == 1)
