@@ -73,6 +73,9 @@ void require_page_name(const ViewRequest& request) {
 }
 
 void require_request(const ViewRequest& request) {
+  if (request.plan && request.view)
+    refuse("--view is the place of the cells that a page of a large mesh holds; leave it out with "
+           "--plan");
   if (request.plan == !request.source->path.empty())
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
                         : "give a mesh, or --plan and the widths of a grid");

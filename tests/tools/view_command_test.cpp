@@ -426,7 +426,7 @@ grid.vtp -o grid.png | 2 | a page is HTML; give a name that ends in .html, or dr
 --plan --cell-width 60km --field nope | 2 | --plan shows widths on the sphere; leave out --field, --mesh, --at,
 --plan --cell-width 60km --sphere-radius earth | 2 | widths in km refer to --earth-radius; give it in place of
 grid.vtp --view 1,91 | 2 | --view 1,91 is not a location; give longitude and latitude in degrees
-box.nc --plane --view 1,2 | 2 | --view excludes --plane
+box.nc --view 1,2 | 2 | --view applies to the sphere only
 grid.vtp -o grid.vtp | 2 | grid.vtp is both input and output; give the output another name
 grid.vtp --field nope | 2 | --field nope: the file has no such field, or one with several numbers
 missing.vtp | 3 | missing.vtp

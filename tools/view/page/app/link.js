@@ -20,7 +20,7 @@ export class Link {
   async begin() {
     this.first = this.state();
     this.palettes = { ...this.app.palettes };
-    if (location.hash.length > 1) await this.restore();
+    if (location.hash.length > 1) await this.restore().catch(() => {}); // a bad address is none
     this.app.on("colours marks filter pick meshes coast rest", () => this.changed());
     addEventListener("hashchange", () => this.app.track(this.restore()));
   }

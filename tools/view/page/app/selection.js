@@ -13,6 +13,8 @@ export class Selection {
     Object.assign(this, { app, stage, navigation });
     this.place = -1;
     app.on("colours", () => {
+      if (app.measure === this.measure) return; // such as a scale that fits what is in sight
+      this.measure = app.measure;
       this.place = -1;
     });
   }
