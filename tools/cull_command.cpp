@@ -195,7 +195,7 @@ std::string describe_cull(const CullRequest& request, const CullOptions& options
   if (!request.no_fill)
     lines += line("filled, of one neighbour", sea.filled);
   if (request.sea_ice_latitude)
-    lines += line("without an open vertex", sea.locked);
+    lines += line("land-locked for sea ice", sea.locked);
   lines += line("parts of the sea", sea.parts);
   lines += line("cells in parts left out", sea.severed);
   lines += severed_parts(report);
@@ -346,8 +346,8 @@ void add_sea(CLI::App& command, CullRequest& request) {
   command
       .add_option("--sea-ice-latitude", request.sea_ice_latitude,
                   "From this latitude on towards both poles, such as 43, cells need a vertex whose "
-                  "three cells are sea, or else become land, repeatedly: the velocity of sea ice "
-                  "stands at vertices. Passages stay. Default: no such rule.")
+                  "three cells are sea, or else are land-locked and become land, repeatedly: the "
+                  "velocity of sea ice stands at vertices. Passages stay. Default: no such rule.")
       ->type_name("DEGREES")
       ->check(CLI::Range(0.0, 90.0));
   command.add_flag("--no-fill", request.no_fill,
@@ -404,7 +404,10 @@ void add_cull(CLI::App& app) {
         ->type_name("FOLDER");
   }
   set_help(*command,
-           {.common = {},
+           {.common = {"GLOBAL", "--land", "--raster", "--raster-variable", "--land-fraction",
+                       "--least-area", "--field", "--sea-below", "--passage", "--barrier", "--seed",
+                       "--sea-ice-latitude", "--output", "--for", "--land-mesh", "--mask",
+                       "--topography", "--heights"},
             .examples = {"calotte cull global.nc --land ne_10m_land.geojson -o ocean.nc",
                          "calotte cull global.nc --raster bed.nc --raster-variable z -o ocean.nc",
                          "calotte cull global.nc --field ter --sea-below 0 --seed -150,0 -o "

@@ -75,8 +75,8 @@ struct SeaOptions {
   std::vector<std::int32_t> closed = {}; ///< cells that are land, unless opened. Default: none.
   bool fill = true; ///< cells with a single neighbour in the sea, or none, become land, repeatedly
   /// n flags: 1 for cells that become land, repeatedly, without an open vertex, which is one whose
-  /// three cells are sea. The velocity of sea ice stands at vertices: without an open one, ice
-  /// cannot leave. Opened cells stay. Default: none.
+  /// three cells are sea. The velocity of sea ice stands at vertices: without an open one a cell is
+  /// land-locked, and ice cannot leave it. Opened cells stay. Default: none.
   std::vector<std::uint8_t> need_open_vertex = {};
   /// The sea is what is connected with one of these cells. Default: none, the largest part.
   std::vector<std::int32_t> seeds = {};
@@ -115,8 +115,7 @@ struct SeaCells {
 /// \param cells_on_cell the n cells' 0-based neighbours, in their order around the cell; -1 for a
 ///        missing one, which counts as land.
 /// \param land n flags: 1 for land.
-/// \throws Error invalid_argument, if no cell is sea, naming the first seed that is on land, and
-/// for
+/// \throws Error invalid_argument: if no cell is sea; naming the first seed that is on land; for
 ///         another number of flags.
 SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& land,
                    const SeaOptions& options = {});

@@ -68,7 +68,8 @@ std::int64_t lock(const IdLists& cells_on_cell, const SeaOptions& options, Ids& 
   const std::vector<std::uint8_t>& flags = options.need_open_vertex;
   if (flags.empty())
     return 0;
-  require(std::ssize(flags) == of_cell.size(), "there are {} flags for {} cells", flags.size(),
+  require(std::ssize(flags) == of_cell.size(),
+          "need_open_vertex has {} flags for {} cells; give one for each", flags.size(),
           of_cell.size());
   std::vector<std::uint8_t> stays(flags.size());
   for (const std::int32_t cell : options.opened)

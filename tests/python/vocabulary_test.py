@@ -218,6 +218,10 @@ def test_culls_by_every_kind_of_land(tmp_path):
             (["--land", tmp_path / "land.geojson", "--least-area", "100000", "--land-fraction", "0"],
              {"land": tmp_path / "land.geojson", "least_area": 1e5, "land_fraction": 0}),
             (["--field", "latCell", "--sea-below", "0.5"], {"field": "latCell", "sea_below": 0.5}),
+            (["--field", "lonCell", "--sea-from", "3", "--sea-ice-latitude", "20", "--land-mesh",
+              tmp_path / "others.nc"],
+             {"field": "lonCell", "sea_from": 3, "sea_ice_latitude": 20,
+              "land_mesh": tmp_path / "others.nc"}),
             (["--field", "latCell", "--sea-from", "0.5", "--barrier",
               tmp_path / "barrier.geojson"],
              {"field": "latCell", "sea_from": 0.5, "barriers": [tmp_path / "barrier.geojson"]})):

@@ -27,7 +27,7 @@ GROUPS = [
 ]
 WIDTHS = ["by_latitude", "by_distance", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
 KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
-         "Unit", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Widths", "Error"]
+         "Unit", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Gate", "Density", "CellWidth", "Widths", "Error"]
 
 
 def escaped(text):

@@ -24,12 +24,14 @@ namespace calotte {
 namespace io_detail {
 namespace {
 
-void require_options(const CullOptions& options) {
+void require_options(const CullOptions& options, const std::string& target) {
   require(options.land_fraction >= 0 && options.land_fraction < 1,
           "the fraction of land is not from 0 to less than 1; give one such as 0.5");
   require(!options.coast.rings.empty() || options.raster.values.size() > 0 ||
               !options.field.variable.empty() || !options.barriers.empty(),
           "there is no land; give a coast, a raster, a field or a barrier");
+  require(options.land_path.empty() || options.land_path != target,
+          "the file of the sea and that of all other cells have one name; give another");
   require(!options.sea_ice_latitude ||
               (*options.sea_ice_latitude >= 0 && *options.sea_ice_latitude <= 90),
           "the latitude of sea ice is not from 0 to 90 degrees; give one such as 43");
@@ -273,7 +275,7 @@ std::vector<std::string> write_cells(const MpasSource& source, const MpasPart& p
 CullReport cull(const std::string& source_path, const std::string& target,
                 const CullOptions& options) {
   using namespace io_detail;
-  require_options(options);
+  require_options(options, target);
   const MpasSource source(source_path);
   const double radius = options.sphere_radius.value_or(source.radius());
   const SourceCells source_cells = read_source_cells(source, options);
@@ -305,7 +307,7 @@ CullReport cull(const std::string& source_path, const std::string& target,
   require(report.others > 0, "all cells are sea; leave the file of the others out");
   write_cells(source, select_part(source, Ids(-1 - sea.array())), options.land_path, report,
               options,
-              write_sea); // either both files appear, or none
+              write_sea); // a failure of either leaves none
   return report;
 }
 

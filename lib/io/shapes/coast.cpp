@@ -55,9 +55,9 @@ Coast read_coast(const std::string& path) {
   if (is_netcdf_file(path)) {
     const NetcdfReader file(path);
     for (const char* const variable : {"N_bins_in_360_longitude_range", "Id_of_GSHHS_ID"})
-      if (!file.has_variable(variable))
-        file.fail("a NetCDF file without polygons of land; give a binned one of GSHHG such as "
-                  "binned_GSHHS_l.nc, or polygons as GeoJSON; give it as a raster, if it is one");
+      file.require_variable(variable,
+                            "without polygons of land; give a binned file of GSHHG such as "
+                            "binned_GSHHS_l.nc, or polygons as GeoJSON, or give it as a raster");
     return read_gshhg(file);
   }
   std::ifstream in = open_input(path);

@@ -1438,7 +1438,8 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
          field_file: Path | None = None, sea_below: float | None = None,
          sea_from: float | None = None, passages: Path | Sequence[Path] | None = None,
          barriers: Path | Sequence[Path] | None = None, fill: bool = True, seeds: ArrayLike = (),
-         least_area: float = 0, mask: Path | None = None, cell_map: Path | None = None,
+         least_area: float = 0, sea_ice_latitude: float | None = None,
+         land_mesh: Path | None = None, mask: Path | None = None, cell_map: Path | None = None,
          sphere_radius: float | None = None, model: str | None = None) -> dict[str, Any]:
     """Removes the land cells from an MPAS file; all fields go along. Returns a dict of counts.
 
@@ -1456,7 +1457,11 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     passages, barriers: GeoJSON of lines whose cells are sea or land; one file or several.
     fill: cells with a single neighbour in the sea become land.
     seeds: points in the sea, longitude and latitude in degrees; default its largest part.
-    mask: NetCDF file for masks by cell of the source. cell_map: folder for maps of cell numbers.
+    sea_ice_latitude: from there on towards both poles, degrees, cells need a vertex whose three cells
+        are sea, such as 43; default no such rule. Passages stay.
+    land_mesh: MPAS file of all other cells; its number is the dict's others.
+    mask: NetCDF file for masks by cell of the source, and its ids in both files. cell_map: folder for
+        maps of cell numbers.
     sphere_radius: of the new file, metres; default that of the source. model: as for write().
     """
     if raster_values not in ("height", "sea-fraction", "land-fraction"):
@@ -1467,7 +1472,9 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
              "barriers": _files(barriers), "raster": "" if raster is None else str(raster),
              "raster_variable": raster_variable, "raster_values": raster_values, "field": field,
              "field_file": "" if field_file is None else str(field_file), "sea_from": sea_from,
-             "sea_below": sea_below, "land_fraction": land_fraction, "least_area": least_area}
+             "sea_below": sea_below, "land_fraction": land_fraction, "least_area": least_area,
+             "sea_ice_latitude": sea_ice_latitude,
+             "land_mesh": "" if land_mesh is None else str(land_mesh)}
     report = _calotte.cull(str(source), str(target), words, fill,
                            _arguments.sphere_points(points, "seeds"),
                            "" if mask is None else str(mask),

@@ -241,6 +241,8 @@ py::dict cull_mesh(const std::string& source, const std::string& target, const p
   options.seeds = columns(seeds);
   options.mask_path = mask;
   options.cell_map_folder = cell_map;
+  options.sea_ice_latitude = words["sea_ice_latitude"].cast<std::optional<double>>();
+  options.land_path = words["land_mesh"].cast<std::string>();
   options.sphere_radius = radius;
   if (model)
     set_model(*model, Format::mpas, radius, options);
@@ -252,6 +254,8 @@ py::dict cull_mesh(const std::string& source, const std::string& target, const p
   values["cells"] = report.cells;
   values["land"] = report.land;
   values["filled"] = report.sea.filled;
+  values["locked"] = report.sea.locked;
+  values["others"] = report.others;
   values["severed"] = report.sea.severed;
   py::list parts;
   for (std::size_t k = 0; k < report.sea.severed_parts.size(); ++k) {
