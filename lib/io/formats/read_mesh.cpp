@@ -113,8 +113,11 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
 RawMesh read_raw_sites(const std::string& path) {
   const OpenFile file(path);
   const InputFile input = file.input(path, FieldChoice::none);
-  if (file.row->read_sites != nullptr && !(file.netcdf && is_planar_mpas(*file.netcdf)))
-    return {.points = file.row->read_sites(input)};
+  if (file.row->read_sites != nullptr && !(file.netcdf && is_planar_mpas(*file.netcdf))) {
+    RawMesh sites{.points = file.row->read_sites(input)};
+    set_surface(*file.row, sites);
+    return sites;
+  }
   if (file.row->read == nullptr)
     refuse_triangles_alone(path);
   RawMesh raw = file.row->read(input);
