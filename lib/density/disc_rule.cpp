@@ -2,6 +2,7 @@
 #include "density/disc_rule.h"
 
 #include "base/elementary.h"
+#include "base/parallel.h"
 #include "curve/hilbert.h"
 
 #include <algorithm>
@@ -41,8 +42,9 @@ double DiscRule::width_at(const Vec3& point, const Disc& disc, double reach) con
 /// The least width within a distance of a point.
 /// \param last index of the disc that gave the previous width, or -1; set to the one that gives
 /// this width.
-double DiscRule::least_within(const Vec3& point, double reach, std::int32_t& last) const {
-  double least = Widths::no_demand;
+/// \param least the result where no disc gives less; discs that do not are left out early.
+double DiscRule::least_within(const Vec3& point, double reach, std::int32_t& last,
+                              double least) const {
   const auto take = [&](std::int32_t item) {
     const Disc& disc = discs_->all[static_cast<std::size_t>(item)];
     if (const double width = width_at(point, disc, reach); width < least) {
@@ -66,9 +68,14 @@ double DiscRule::least_within(const Vec3& point, double reach, std::int32_t& las
 }
 
 void DiscRule::evaluate(std::span<const Vec3> points, std::span<double> widths) const {
+  std::fill(widths.begin(), widths.end(), Widths::no_demand);
+  lower(points, widths);
+}
+
+void DiscRule::lower(std::span<const Vec3> points, std::span<double> widths) const {
   std::int32_t last = -1;
   for (std::size_t k = 0; k < points.size(); ++k)
-    widths[k] = least_within(points[k], 0, last);
+    widths[k] = least_within(points[k], 0, last, widths[k]);
 }
 
 Bounds DiscRule::bounds(const Vec3& point, double reach) const {
@@ -79,9 +86,28 @@ Bounds DiscRule::bounds(const Vec3& point, double reach) const {
                                                 : Widths::no_demand};
 }
 
+/// Most discs of a limited rule are nowhere the least: a narrower one nearby allows less all over
+/// them, and so everywhere.
 std::shared_ptr<const WidthRule> DiscRule::limited(double gradient, double radius_km) const {
+  const DiscRule all(discs_, std::min(gradient * radius_km, gradient_));
+  const std::int64_t count = std::ssize(discs_->all);
+  std::vector<std::uint8_t> counts(static_cast<std::size_t>(count));
+  base_detail::for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    constexpr double rounding = 1e-9; // of widths, whose bits must stay
+    std::int32_t last = -1;
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Disc& disc = discs_->all[static_cast<std::size_t>(i)];
+      // The least width of another disc at the point of this one that is farthest from it.
+      const double farthest = all.least_within(disc.centre, -disc.radius, last);
+      counts[static_cast<std::size_t>(i)] = farthest < (1 - rounding) * disc.width ? 0 : 1;
+    }
+  });
+  std::vector<Disc> rest;
+  for (std::int64_t i = 0; i < count; ++i)
+    if (counts[static_cast<std::size_t>(i)] != 0)
+      rest.push_back(discs_->all[static_cast<std::size_t>(i)]);
   return std::shared_ptr<const WidthRule>(
-      new DiscRule(discs_, std::min(gradient * radius_km, gradient_)));
+      new DiscRule(DiscRule(std::move(rest)).discs_, all.gradient_));
 }
 
 } // namespace calotte::density_detail

@@ -32,6 +32,7 @@ class DiscRule : public WidthRule {
 public:
   explicit DiscRule(std::vector<Disc> discs);
   void evaluate(std::span<const Vec3> points, std::span<double> widths) const override;
+  void lower(std::span<const Vec3> points, std::span<double> widths) const override;
   Bounds bounds(const Vec3& point, double reach) const override;
   /// The limit is exact: the shortest path from a disc is a great circle.
   std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const override;
@@ -47,7 +48,8 @@ private:
       : discs_(std::move(discs)), gradient_(gradient) {}
   double grown(double width, double beyond) const;
   double width_at(const Vec3& point, const Disc& disc, double reach = 0) const;
-  double least_within(const Vec3& point, double reach, std::int32_t& last) const;
+  double least_within(const Vec3& point, double reach, std::int32_t& last,
+                      double least = Widths::no_demand) const;
 
   std::shared_ptr<const Discs> discs_;
   double gradient_; ///< km per radian; infinite without a limit

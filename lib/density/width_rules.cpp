@@ -252,6 +252,14 @@ double product_of(double a, double b) { return a * b; }
 class MinimumRule : public CombinedRule {
 public:
   explicit MinimumRule(std::vector<Rule> parts) : CombinedRule(std::move(parts), least_of) {}
+  void evaluate(std::span<const Vec3> points, std::span<double> widths) const override {
+    std::fill(widths.begin(), widths.end(), Widths::no_demand);
+    lower(points, widths);
+  }
+  void lower(std::span<const Vec3> points, std::span<double> widths) const override {
+    for (const Rule& part : parts())
+      part->lower(points, widths);
+  }
   void find_active(std::span<const Vec3> points, std::span<std::int32_t> active) const override {
     std::fill(active.begin(), active.end(), 0);
     std::vector<double> least(points.size(), Widths::no_demand), widths(least);
@@ -456,6 +464,13 @@ double farthest_on(const Surface& surface) {
 }
 
 } // namespace
+
+void WidthRule::lower(std::span<const Vec3> points, std::span<double> widths) const {
+  std::vector<double> own(widths.size());
+  evaluate(points, own);
+  std::transform(widths.begin(), widths.end(), own.begin(), widths.begin(),
+                 [](double a, double b) { return std::min(a, b); });
+}
 
 void WidthRule::find_active(std::span<const Vec3>, std::span<std::int32_t> active) const {
   std::fill(active.begin(), active.end(), 0);
