@@ -47,14 +47,13 @@ double seconds_of_point(const Density& density, const Surface& surface) {
   return least / count;
 }
 
-// Default runs with x4, x8, widths by latitude, in a band and by the Rossby radius as rasters, with
-// 41 000 to 111 000 cells, evaluate each cell 80 to 110 times, those with 28 000 cells along a
-// coast, with gradients ten times above what models recommend, 180 times. An evaluation took 290 to
-// 540 ns of a cell on an AMD EPYC virtual machine, of all threads together.
+// Default runs with x4, x8, x16, caps of a contrast of 100, a coast and an ocean by rules, with 41
+// 000 to 1.6 million cells, evaluate each cell 30 to 42 times. An evaluation took 150 to 900 ns of
+// a cell on AMD EPYC virtual machines, of two threads together, as others used these more or less.
 
 /// Evaluations in units of the result's cells: of a uniform grid of the sphere, see Start, and of
 /// all others.
-constexpr double evaluations_uniform = 30, evaluations_graded = 110;
+constexpr double evaluations_uniform = 30, evaluations_graded = 40;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
 constexpr double points_of_cell = 36;      ///< at which the density is evaluated
 constexpr double efficiency = 0.9;         ///< of each further thread
