@@ -147,12 +147,15 @@ void run_check(const MeshSource& source, const std::optional<std::string>& word)
       text += table(found, file);
       add(without_area(found));
     }
-    if (model != nullptr && failures.empty() && !has_demanded_cells(file)) {
-      add(no_demanded_cells(*model));
-    } else if (model != nullptr && failures.empty()) {
-      const ModelGates found = gates_of(*model, source.path, file);
-      text += table(found);
-      add(failure_of(found));
+    if (model != nullptr && failures.empty()) {
+      if (has_demanded_cells(file)) {
+        const ModelGates found = gates_of(*model, source.path, file);
+        text += table(found);
+        add(failure_of(found));
+      } else {
+        add(no_demanded_cells(*model));
+      }
+      add(unsuited(*model, file));
     }
     progress.stage("comparing the variables of " + source.path);
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));

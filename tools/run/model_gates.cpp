@@ -58,6 +58,19 @@ bool has_demanded_cells(const MeshFile& file) {
   return file.polygons ? file.not_voronoi.passed() : file.mesh && file.mesh->closed();
 }
 
+std::string unsuited(const ModelNeeds& model, const MeshFile& file) {
+  if (file.format != "MPAS" ||
+      suits(model, model.format, file.sphere_radius, file.vertex_order, model.dimensions))
+    return "";
+  const auto edge = [](VertexOrder order) {
+    return order == VertexOrder::before_edges ? "k and k + 1" : "k - 1 and k";
+  };
+  return message("the file is not one for {}: its radius is {} and edge k of a cell lies between "
+                 "vertices {}, instead of {} and {}; calotte convert FILE NEW --for {}",
+                 model.name, shortest(file.sphere_radius), edge(file.vertex_order),
+                 shortest(model.sphere_radius), edge(model.vertex_order), model.word);
+}
+
 std::string no_demanded_cells(const ModelNeeds& model) {
   return message(
       "the demands of {} are on Voronoi cells, of the whole sphere or with the corners of "

@@ -26,6 +26,10 @@ Ids cell_mask_of(const std::string& path, std::int64_t cells);
 /// sphere or, with their corners, of a part.
 bool has_demanded_cells(const MeshFile& file);
 
+/// A clause on an MPAS file with another radius or order of vertices than the model's; empty for
+/// those that suit it, and for other files.
+std::string unsuited(const ModelNeeds& model, const MeshFile& file);
+
 /// A clause on a file without them.
 std::string no_demanded_cells(const ModelNeeds& model);
 

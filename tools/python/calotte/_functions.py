@@ -229,6 +229,8 @@ def gates(mesh: Grid, model: str, *, mask: ArrayLike | None = None) -> list[Gate
     >>> all(gate.passed for gate in gates(delaunay(bisected_icosahedron(4)), "mpas-atmosphere"))
     True
     """
+    if not mesh.surface.is_sphere:
+        raise Error("a model's demands are on grids of the sphere; give one")
     radius = _units.radius_of(mesh)
     found = _calotte.gates(voronoi(mesh), model, None if radius is None else 1000 * radius,
                            np.empty(0, np.int32) if mask is None else np.asarray(mask, np.int32))
