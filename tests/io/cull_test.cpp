@@ -503,7 +503,7 @@ TEST_CASE("coasts of GSHHG: segments of bins join to polygons; only land counts"
   Mpas raster;
   raster.variables["z"] = {"z", {1}, {"of z"}, true, {1}};
   raster.create(path, NC_DOUBLE, [](int) {});
-  CHECK(has(message_of([&] { read_coast(path); }), "or give it as a raster"));
+  CHECK(has(message_of([&] { read_coast(path); }), "give it as a raster"));
 }
 
 TEST_CASE("cells that need an open vertex have one, to the last, but for passages") {

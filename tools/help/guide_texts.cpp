@@ -12,8 +12,9 @@ constexpr const char* ocean = R"(An ocean grid: make a grid of the Earth, then l
 
 --land takes polygons or a file of GSHHG, --raster heights or fractions. --least-area leaves small
 islands and lakes out. cull prints the largest seas that are not connected: --passage opens
-straits to them, --barrier closes land, --seed LON,LAT keeps a sea. Widths by the distance from a
-coast: calotte help widths.
+straits to them, --barrier closes land, --seed LON,LAT keeps a sea. --topography writes the sea
+floor, --land-mesh the other cells; --sea-ice-latitude 43 lets ice move. Widths by the distance from
+a coast: calotte help widths.
 )";
 
 constexpr const char* straits = R"(Straits stay open, and land stays closed, by lines of GeoJSON.

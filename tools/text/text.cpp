@@ -47,7 +47,7 @@ std::string data_size(double bytes) {
 }
 
 std::string row(std::string name, std::size_t column, const std::string& value) {
-  name.resize(std::max(name.size(), column), ' ');
+  name.resize(std::max(name.size() + 1, column), ' ');
   return message("{}{}\n", name, value);
 }
 

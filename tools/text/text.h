@@ -36,7 +36,7 @@ std::string duration(double seconds);
 /// "41.2 kB", "325 MB", "2.87 GB": the size of data, of three digits.
 std::string data_size(double bytes);
 
-/// A line of a table: the name, blanks up to a column, and the value.
+/// A line of a table: the name, blanks up to a column, at least one, and the value.
 std::string row(std::string name, std::size_t column, const std::string& value);
 
 /// The parts of a text between separators, at least one.

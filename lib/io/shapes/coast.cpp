@@ -56,8 +56,8 @@ Coast read_coast(const std::string& path) {
     const NetcdfReader file(path);
     for (const char* const variable : {"N_bins_in_360_longitude_range", "Id_of_GSHHS_ID"})
       file.require_variable(variable,
-                            "without polygons of land; give a binned file of GSHHG such as "
-                            "binned_GSHHS_l.nc, or polygons as GeoJSON, or give it as a raster");
+                            "land is polygons of GeoJSON or a binned file of GSHHG such as "
+                            "binned_GSHHS_l.nc; give one, or give it as a raster");
     return read_gshhg(file);
   }
   std::ifstream in = open_input(path);
