@@ -329,8 +329,8 @@ TEST_CASE("a budget is the number of cells, the memory or the step of the model"
 --budget -3GB | 2 | that is no positive number
 --budget many | 2 | that is no positive number
 --budget 1-cells | 2 | 1 cells are out of range
---budget step=10 | 2 | it has no unit
---budget step=1ms | 2 | "ms" is no unit here
+--budget step=10 | 2 | "10" is no time; give a number and its unit, s, min, h or d
+--budget step=1ms | 2 | "1ms" is no time
 --budget 5000-cells --cells 5000 | 2 | --cells
 )");
   check_refusals(bench, "plan", "--density x8 --budget step=10s | 2 | requires cell widths");

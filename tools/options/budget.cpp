@@ -48,7 +48,7 @@ Budget budget_of(const std::string& words, const ModelMemory& memory) {
   constexpr std::string_view step = "step=", cells = "-cells";
   Budget budget;
   if (words.starts_with(step)) {
-    budget.step = value_of(words, words.substr(step.size()), {{"s", 1}, {"min", 60}});
+    budget.step = seconds_in(words.substr(step.size()));
     return budget;
   }
   double number = 0;

@@ -20,8 +20,8 @@ struct ModelMemory {
 };
 
 /// The longest step of MPAS-Atmosphere, s: 0.9 times the least distance of cells over its fastest
-/// flow. That distance is what a well-centred grid keeps of the least width,
-/// CvtStop::least_spacing. \param width the least of cells, km.
+/// flow. That distance is the part of the least width that a well-centred grid keeps.
+/// \param width the least of cells, km. \param least_spacing that part, CvtStop::least_spacing.
 double longest_step(double width, double least_spacing);
 /// The least width for a step, km: its inverse.
 double width_of_step(double seconds, double least_spacing);
