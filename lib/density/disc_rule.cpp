@@ -91,7 +91,7 @@ Bounds DiscRule::bounds(const Vec3& point, double reach) const {
 std::shared_ptr<const WidthRule> DiscRule::limited(double gradient, double radius_km) const {
   const DiscRule all(discs_, std::min(gradient * radius_km, gradient_));
   const std::int64_t count = std::ssize(discs_->all);
-  std::vector<std::uint8_t> counts(static_cast<std::size_t>(count));
+  std::vector<std::uint8_t> stays(static_cast<std::size_t>(count));
   base_detail::for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     constexpr double rounding = 1e-9; // of widths, whose bits must stay
     std::int32_t last = -1;
@@ -99,12 +99,12 @@ std::shared_ptr<const WidthRule> DiscRule::limited(double gradient, double radiu
       const Disc& disc = discs_->all[static_cast<std::size_t>(i)];
       // The least width of another disc at the point of this one that is farthest from it.
       const double farthest = all.least_within(disc.centre, -disc.radius, last);
-      counts[static_cast<std::size_t>(i)] = farthest < (1 - rounding) * disc.width ? 0 : 1;
+      stays[static_cast<std::size_t>(i)] = farthest < (1 - rounding) * disc.width ? 0 : 1;
     }
   });
   std::vector<Disc> rest;
   for (std::int64_t i = 0; i < count; ++i)
-    if (counts[static_cast<std::size_t>(i)] != 0)
+    if (stays[static_cast<std::size_t>(i)] != 0)
       rest.push_back(discs_->all[static_cast<std::size_t>(i)]);
   return std::shared_ptr<const WidthRule>(
       new DiscRule(DiscRule(std::move(rest)).discs_, all.gradient_));

@@ -468,8 +468,7 @@ double farthest_on(const Surface& surface) {
 void WidthRule::lower(std::span<const Vec3> points, std::span<double> widths) const {
   std::vector<double> own(widths.size());
   evaluate(points, own);
-  std::transform(widths.begin(), widths.end(), own.begin(), widths.begin(),
-                 [](double a, double b) { return std::min(a, b); });
+  std::transform(widths.begin(), widths.end(), own.begin(), widths.begin(), least_of);
 }
 
 void WidthRule::find_active(std::span<const Vec3>, std::span<std::int32_t> active) const {

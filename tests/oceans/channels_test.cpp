@@ -158,6 +158,10 @@ TEST_CASE("the least width of discs, and what grows from them, is that over all"
       worst = std::max(worst, std::abs(got[i] - least));
     }
     CHECK(worst < 1e-9);
+    // In a minimum only what is below the others is looked for, with the same bits.
+    const Widths limited = std::isfinite(gradient) ? rule.limit_gradient(gradient) : rule;
+    CHECK(evaluate(Widths::minimum({Widths(20.0), limited}), places) ==
+          DoubleVector(got.cwiseMin(20.0)));
   }
 }
 

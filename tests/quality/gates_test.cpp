@@ -117,6 +117,8 @@ TEST_CASE("the change of width is that of the density") {
   const Gate found = gate_of(gates(cells, strict, earth), "change of width, most");
   CHECK(found.value == doctest::Approx(demanded - 1).epsilon(0.12));
   CHECK_FALSE(found.passed()); // so few cells are too few for a contrast of 8
+  // In a well-centred grid four angles, each below 90 degrees, do not surround a generator.
+  CHECK(gate_of(gates(cells, strict, earth), "sides of a cell, least").value == 5);
   const double width = gate_of(gates(voronoi(make_grid({.cells = 2562}).mesh), strict, earth),
                                "change of width, most")
                            .value;
