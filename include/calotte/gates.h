@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+/// The demands of models on grids. Which these are, see models().
 CALOTTE_API_BEGIN
 namespace calotte {
 
@@ -19,7 +20,8 @@ struct GridDemands {
   std::int64_t least_sides = 0; ///< of a cell
   double least_dv_over_dc = 0;  ///< of a Voronoi edge over its Delaunay edge
   /// Of the width of a cell over that of a neighbour, minus 1. Widths are those of hexagons of the
-  /// cells' areas, smoothed over some neighbours, which removes the scatter of single cells.
+  /// cells' areas, their logarithms smoothed with a weight whose standard deviation is sqrt(2)
+  /// cells, which removes the scatter of single cells.
   double largest_change = 0;
   /// Of the two cells of an edge and their neighbours, which advection through the edge uses.
   std::int64_t most_advecting_cells = 0;

@@ -337,10 +337,10 @@ void require_storable(const std::string& path, const MeshFile& file, const Write
 /// Writes the contents of a file to another format. The cells keep their shapes: polygons go to
 /// formats of cells, and to those of triangles that can hold other faces (vtp, vtu, off, ply) where
 /// there is no mesh. Fields of the file that the format cannot hold are left out, those of the
-/// options are refused. The planet stays that of the
-/// file, unless the options have another. MPAS needs Voronoi cells: the
-/// polygons of an open mesh are written if each corner of three cells is the circumcentre of their
-/// centres, within a millionth of a cell's width. Density and fields at cells go along.
+/// options are refused. The planet stays that of the file, unless the options have another. MPAS
+/// needs Voronoi cells: the polygons of an open mesh are written if each corner of three cells is
+/// the circumcentre of their centres, within a millionth of a cell's width. Density and fields at
+/// cells go along.
 /// \param options its density, if not uniform, replaces the file's.
 /// \throws Error as write(); invalid_argument if the format cannot hold the mesh, with the reason.
 WrittenFields write(const std::string& path, const MeshFile& file,

@@ -198,11 +198,11 @@ Points3 read_positions(const NetcdfReader& file, const std::string& cells) {
   return positions;
 }
 
-/// "30 E -10 N": the position of a cell.
+/// "longitude 30, latitude -10": the position of a cell.
 std::string position_words(const Eigen::Vector3d& direction) {
   const base_detail::LonLat at =
       base_detail::lonlat_of({direction.x(), direction.y(), direction.z()});
-  return base_detail::message("{} E {} N", at.longitude, at.latitude);
+  return base_detail::message("longitude {}, latitude {}", at.longitude, at.latitude);
 }
 
 // ---- Masks

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The border of the package: errors of Python about the arguments of its functions are put into words.
+"""Words for errors about the arguments of the package's functions.
 
-A wrong argument is told by the annotations of its function, in one line that names it, what it is and what to give.
-Arguments that the function takes are not looked at, whatever their types.
+After an error the arguments are compared with the annotations of the function. The first that does not fit is named in one
+line, with what it is and what to give. Nothing is compared before an error: a function may take more than it says.
 """
 import collections.abc
 import difflib

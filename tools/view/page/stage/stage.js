@@ -17,7 +17,7 @@ import { View } from "./view.js";
 /** Windows of more device pixels a CSS pixel show no more than this. */
 const greatestRatio = 2;
 
-/** ms after the last movement that the app is told of rest. */
+/** Milliseconds without a movement until the app hears that the view rests. */
 const restAfter = 250;
 
 export class Stage {
