@@ -225,7 +225,7 @@ def test_the_order_of_cells(mesh, tmp_path):
     latitude.to_netcdf(tmp_path / "history.nc")
     read = calotte.read(tmp_path / "history.nc", mesh=tmp_path / "input.nc")
     assert (read.fields["warmth"] == latitude.values).all() and np.abs(read.fields["warmth"] - read.lat).max() < 5
-    with pytest.raises(calotte.Error, match=r"history.nc: cell \d+ is at .* E .* N, and that of .*curve.nc at .*input"):
+    with pytest.raises(calotte.Error, match=r"history.nc: cell \d+ is at longitude .*, latitude .*, and that of .*curve.nc at .*input"):
         calotte.read(tmp_path / "history.nc", mesh=tmp_path / "curve.nc")
     other = calotte.read(tmp_path / "curve.nc")
     for use in (lambda: calotte.interpolate(other, latitude, BOXES), lambda: other.plot(latitude),

@@ -131,8 +131,8 @@ def _require_order(array, dim, grid, what):
     first = _calotte.first_misplaced(cells, points)
     if first >= 0:
         lon, lat = positions[first]
-        raise Error(f"{what} have cell {first} at {lon:g} E {lat:g} N, which is not in cell {first} of the mesh; give "
-                    "the mesh of these values, or values in its order: files have that of the mesh with "
+        raise Error(f"{what} have cell {first} at longitude {lon:g}, latitude {lat:g}, which is not in cell {first} of the "
+                    "mesh; give the mesh of these values, or values in its order: files have that of the mesh with "
                     "order=\"input\"")
 
 
