@@ -3,6 +3,7 @@
 #include "io/format_files.h"
 #include "support/clouds.h"
 #include "support/constants.h"
+#include "support/densities.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/spoilt_files.h"
@@ -10,6 +11,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
+#include <calotte/grid.h>
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 
@@ -266,14 +268,18 @@ TEST_CASE("attributes of an MPAS file are checked") {
 TEST_CASE("coordinates in single precision have no deviation") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc", rounded = scratch / "float.nc";
-  const Mesh mesh = delaunay(fibonacci_sphere(500));
-  write(path, mesh, options_with_density(mesh, 6371229, Format::mpas));
-  Mpas(path).create(rounded, NC_FLOAT, [](int id) {
-    const double radius = 6371229;
-    require(nc_put_att_text(id, NC_GLOBAL, "on_a_sphere", 3, "YES"));
-    require(nc_put_att_double(id, NC_GLOBAL, "sphere_radius", NC_DOUBLE, 1, &radius));
-  });
-  check_none(rounded);
+  const Density steep = tanh_bump({1, 0, 0}, pi / 9, 0.15, std::pow(50, -4));
+  for (const Mesh& mesh : {delaunay(fibonacci_sphere(500)), // as models write their grids
+                           make_grid({.cells = 9000, .resolution = steep}).mesh}) {
+    write(path, mesh, options_with_density(mesh, 6371229, Format::mpas));
+    Mpas(path).create(rounded, NC_FLOAT, [](int id) {
+      const double radius = 6371229;
+      require(nc_put_att_text(id, NC_GLOBAL, "on_a_sphere", 3, "YES"));
+      require(nc_put_att_double(id, NC_GLOBAL, "sphere_radius", NC_DOUBLE, 1, &radius));
+    });
+    check_none(rounded);
+    CHECK(read_mesh_file(rounded).not_voronoi.passed());
+  }
 }
 
 // ---- Files of polygons

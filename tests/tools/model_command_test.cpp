@@ -218,9 +218,10 @@ TEST_CASE("check --for names the demands that fail, and where") {
                         "least: 3, the limit is 5, "));
   CHECK(has(failed.err, "; dv / dc, least: "));
   CHECK(has(failed.err, "; change of width, most: "));
-  CHECK(has(failed.err, "; the file is not one for MPAS-Ocean: its radius is 1 "));
+  CHECK(has(failed.err,
+            "; the file is not one for MPAS-Ocean: its radius is 1, instead of 6371220; "));
   CHECK(has(bench.run("check good.nc --for mpas-sw").err,
-            "edge k of a cell lies between vertices k and k + 1, instead of 1 and k - 1 and k; "
+            "edge k of its cells lies between vertices k and k + 1, instead of k - 1 and k; "
             "calotte convert FILE NEW --for mpas-sw"));
   CHECK(bench.run("check random.nc").code == 0);
   check_success(bench, "info random.nc --for mpas-sw --report report.json");

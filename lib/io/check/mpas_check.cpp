@@ -39,8 +39,7 @@ void check_closed(Mesh mesh, double radius, DoubleVector density, Deviations& de
   MpasCheck check{deviations, voronoi, std::move(density), radius};
   take_numbering(find_numbering(voronoi, deviations), check);
   measure(voronoi);
-  check.width = mean_width(voronoi);
-  check.tolerance += deviations.file().is_float("xCell") ? 4 * float_digits / check.width : 0;
+  check.set_width(mean_width(voronoi));
   compare_mpas(check);
   check_mpas_density(check);
 }
@@ -58,6 +57,16 @@ void check_attributes(Deviations& deviations, bool on_sphere) {
 }
 
 } // namespace
+
+void MpasCheck::set_width(double mean) {
+  width = mean;
+  double least = mean;
+  for (const double length : voronoi.dc)
+    if (length > 0) // not for lack of a cell
+      least = std::min(least, length);
+  if (deviations.file().is_float("xCell"))
+    tolerance += 4 * float_digits / least;
+}
 
 double MpasCheck::rounding(const std::string& variable) const {
   const NetcdfReader& file = deviations.file();

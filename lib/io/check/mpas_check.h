@@ -32,6 +32,9 @@ struct MpasCheck {
   /// By edge of an open mesh: 1 if its only cell is the second in the file. Here it is the first.
   Array<std::uint8_t> flipped = {};
 
+  /// Sets the width, and the tolerance that positions in single precision need where cells are
+  /// smallest. \pre the lengths of voronoi are known.
+  void set_width(double mean);
   /// Rounding of a coordinate in the file, in the unit of voronoi.
   double rounding(const std::string& variable) const;
   /// Whether the file has a variable of the table. A wrong shape is a deviation.

@@ -188,7 +188,7 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   voronoi_detail::measure_open(part, cut_edges(part, radius, deviations));
   mark_incomplete_cells(radius, part);
   check_masks(part, deviations);
-  check.width = part.dc.mean();
+  check.set_width(part.dc.mean());
   if (file.density.size() == part.cells.cols())
     check.density = file.density;
   compare_mpas(check);

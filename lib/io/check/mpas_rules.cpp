@@ -124,7 +124,7 @@ void add_coordinate_rules(const MpasCheck& check, const MpasKind& kind, const Po
 /// The angle depends on the direction of east at the edge, which is singular at a pole, and on the
 /// normal, which depends on its cells.
 MpasRule angle_rule(const MpasCheck& check) {
-  const double digits = 0x1p-50 + check.rounding(mpas::angle_edge);
+  const double digits = 0x1p-50 + 2 * check.rounding(mpas::angle_edge); // of both cells
   return rule(
       [&check, digits](Entry& entry) {
         const Voronoi& voronoi = check.voronoi;

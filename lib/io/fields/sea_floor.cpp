@@ -4,6 +4,7 @@
 
 #include <calotte/field_grid.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -39,8 +40,7 @@ SeaFloor sea_floor(const Raster& heights, const FieldGrid& ocean) {
       bed.values[i] = 0;
       ++floor.dry;
     }
-    if (std::isnan(part.values[i]))
-      part.values[i] = 0;
+    part.values[i] = std::isnan(part.values[i]) ? 0 : std::min(part.values[i], 1.0); // rounding
   }
   const DoubleVector zero = DoubleVector::Zero(bed.values.size());
   floor.fields = {
