@@ -294,6 +294,9 @@ typedef struct calotte_recipe {
    * rules (.toml), NetCDF (.nc), JIGSAW's spacings (.msh), polygons that have widths (.geojson).
    * Null: none. */
   const char* widths_file;
+  double most_off_midpoint; /**< of a well-centred end: the distance between the midpoints of an
+                               edge and of its Voronoi edge, over the edge, that has no penalty;
+                               above 0, 1: none has one [1] */
 } calotte_recipe;
 
 /** Initialises a recipe of `size` bytes, for languages that cannot call inline functions: `size` is

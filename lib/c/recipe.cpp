@@ -143,6 +143,7 @@ CvtStop read_stop(const calotte_recipe& given) {
   if (given.well_centred != CALOTTE_AUTOMATIC)
     stop.well_centred = require_flag(given.well_centred, "well_centred");
   stop.least_spacing = given.least_spacing;
+  stop.most_off_midpoint = given.most_off_midpoint;
   return stop;
 }
 
@@ -165,6 +166,7 @@ calotte_recipe usual_recipe() {
   recipe.tolerance = recipe.well_centred = CALOTTE_AUTOMATIC;
   recipe.max_iterations = usual.stop.max_iterations;
   recipe.least_spacing = usual.stop.least_spacing;
+  recipe.most_off_midpoint = usual.stop.most_off_midpoint;
   recipe.seed = static_cast<std::int64_t>(usual.seed);
   recipe.merge_within = usual.merge_within;
   recipe.initialised = 1;

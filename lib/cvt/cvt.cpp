@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "cvt/course.h"
 #include "cvt/cvt.h"
 #include "cvt/descent.h"
 #include "cvt/functional.h"
@@ -64,14 +65,17 @@ void require_state(const State& state) {
 }
 
 /// Updates the state with the evaluation at its points: the norm, convergence and the rule.
-void conclude(State& state, const DescentOptions& options, const CvtIteration& iteration) {
+void conclude(State& state, const DescentOptions& options, const Evaluation& here) {
+  const CvtIteration& iteration = here.iteration;
   CvtReport& report = state.report;
   const int rule = rule_of(iteration);
   const bool by_final_rule = rule == 0 || rule == options.quadrature.final_rule;
   report.residual = norm_of(iteration, options.norm);
   if (state.in_polish()) {
     const bool raised = state.action().kind == CvtAction::Kind::raise;
-    report.converged = iteration.shape_excess <= (raised ? accepted_excess : polished_excess);
+    report.converged = iteration.shape_excess <= (raised ? accepted_excess : polished_excess) &&
+                       (here.shapes.off_midpoint == 0 ||
+                        state.memory.since_restart >= course::evaluations_for_midpoints);
   } else if (options.norm == Norm::none) {
     report.converged = state.memory.iterations >= options.max_iterations;
   } else {
@@ -111,13 +115,13 @@ void work_locally(State& state, const DescentOptions& options, RunFunctional& fu
     if (functional.glide(state.points, limits_of_glide(state)) > 0)
       descent.restart();
     ++state.cursor.glides;
-    conclude(state, options, descent.here().iteration);
+    conclude(state, options, descent.here());
   }
   const bool at_start =
       state.memory.iterations == 1 && state.action().kind == CvtAction::Kind::polish;
   if (at_start && !state.report.converged && functional.polish(state.points) > 0) {
     descent.restart();
-    conclude(state, options, descent.here().iteration);
+    conclude(state, options, descent.here());
   }
 }
 
@@ -152,9 +156,7 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
   const std::unique_ptr<RunFunctional> functional = make_functional(
       state.points, recipe.surface, run.density, {run.execution.decomposition, options.quadrature},
       recipe.boundary, std::move(level));
-  ShapeLimits limits = shape_limits;
-  limits.least_spacing = recipe.stop.least_spacing;
-  functional->penalise({state.polish.penalty, state.polish.demanded_spacing, limits});
+  functional->penalise(penalty_of(state, recipe.stop));
   functional->pin(fixed_generators(state));
   Descent descent(state, options, run.density, *functional);
   const bool resumed = state.memory.iterations > 0;
@@ -162,7 +164,7 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
   if (resumed)
     descent.step();
   for (;; descent.step()) {
-    conclude(state, options, descent.here().iteration);
+    conclude(state, options, descent.here());
     work_locally(state, options, *functional, descent);
     const bool ended = level_ended(state, options);
     if (ended)

@@ -277,7 +277,7 @@ void FunctionalOver<S>::evaluate(const Points3& points, bool final_rule, bool wi
     throw Error(ErrorCode::invalid_argument,
                 "the density is zero over a whole cell, or beyond 1e150: "
                 "make it positive everywhere, and smaller");
-  if (penalty_.factor > 0)
+  if (penalty_.factors.shapes > 0)
     add_penalty(points, out);
   iteration.seconds = restart_clock(mark);
 }
@@ -300,12 +300,12 @@ template <Space S> void FunctionalOver<S>::add_penalty(const Points3& points, Ev
   const DoubleVector inverse_spacing =
       calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / penalty_.spacing;
   const ShapeInput<S> input{tessellation_.positioned(), inverse_spacing, penalty_.limits, fixed_};
-  out.shapes = add_shape_terms(input, distorted(input), penalty_.factor, out.gradient);
+  out.shapes = add_shape_terms(input, distorted(input), penalty_.factors, out.gradient);
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     make_tangential(out.gradient, points, {begin, end});
   });
   count_off_centroid(terms_, inverse_spacing, out.iteration);
-  out.penalty = penalty_.factor * out.shapes.value;
+  out.penalty = out.shapes.value;
   out.iteration.shape_excess = out.shapes.worst;
 }
 

@@ -51,7 +51,7 @@ template <Space S>
 bool polish_part(Subdomain<S>& part, const LocalInput& input, ShapePenalty penalty) {
   constexpr int least = 20, most = 40, most_raised = 2; // the least spread what moves
   constexpr double raise = 4;
-  for (int raised = 0; raised <= most_raised; ++raised, penalty.factor *= raise) {
+  for (int raised = 0; raised <= most_raised; ++raised, penalty.factors.shapes *= raise) {
     const Evaluation last =
         descend(part, part.points(), input, penalty, [&](const Evaluation& here, int evaluations) {
           return (here.shapes.worst <= polished_excess && evaluations >= least) ||

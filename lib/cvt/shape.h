@@ -15,6 +15,9 @@
 
 namespace calotte::cvt_detail {
 
+/// From this value on CvtStop::most_off_midpoint limits nothing.
+inline constexpr double any_off_midpoint = CvtStop().most_off_midpoint;
+
 /// The limits of shape that a polish keeps. All shapes within them suit models: a triangle must not
 /// be obtuse, and a short Voronoi edge reduces the stable time step for diffusion of vorticity. A
 /// CVT without polish has few shapes beyond them, all near pairs of cells with 5 and 7 neighbours.
@@ -25,11 +28,16 @@ struct ShapeLimits {
   double least_edge = 0.21, most_edge = 1.1;
   /// Delaunay edge over the spacing that the density demands there; see CvtStop::least_spacing.
   double least_spacing = CvtStop().least_spacing, most_spacing = 1.3;
+  /// The distance between the midpoints of a Delaunay edge and of its Voronoi edge, over the
+  /// Delaunay edge; see CvtStop::most_off_midpoint. A penalty has terms for what is beyond, but
+  /// this is no shape that models refuse: it counts in no excess.
+  double most_off_midpoint = CvtStop().most_off_midpoint;
 };
 inline constexpr ShapeLimits shape_limits;
 
-/// Whether a value is valid as a run's CvtStop::least_spacing.
+/// Whether values are valid as a run's CvtStop::least_spacing and CvtStop::most_off_midpoint.
 inline bool is_least_spacing(double spacing) { return spacing >= 0 && spacing <= 0.95; }
+inline bool is_most_off_midpoint(double offset) { return offset > 0 && offset <= any_off_midpoint; }
 
 // How far beyond its limit the worst cotangent or ratio may be:
 inline constexpr double polished_excess = 0.02;  ///< where a polish ends
@@ -46,17 +54,24 @@ constexpr ShapeLimits early_glide_limits() {
   return limits;
 }
 
-/// A penalty: a factor times the squared excesses beyond limits.
+/// The factors of squared excesses in a penalty.
+struct ShapeFactors {
+  double shapes = 0;       ///< of angles, ratios and lengths; 0 for no penalty
+  double off_midpoint = 0; ///< beyond ShapeLimits::most_off_midpoint
+};
+
+/// A penalty: factors times the squared excesses beyond limits.
 struct ShapePenalty {
-  double factor = 0;  ///< 0 for none
+  ShapeFactors factors;
   double spacing = 1; ///< that the density demands, times rho^(1/4)
   ShapeLimits limits;
 };
 
 /// The penalty for shapes beyond the limits.
 struct ShapeTerms {
-  double value = 0; ///< sum of the squares by which the quantities exceed their limits
-  double worst = 0; ///< the largest such excess
+  double value = 0;                  ///< of the penalty
+  double off_midpoint = 0;           ///< the part of it for midpoints
+  double worst = 0;                  ///< the largest such excess
   std::int32_t worst_generator = -1; ///< one of the worst shape
   std::int64_t generators = 0;       ///< of all shapes with more than the accepted excess
 };
@@ -69,15 +84,15 @@ template <Space S> struct ShapeInput {
   const std::vector<std::uint8_t>& fixed; ///< a flag for each generator that stays; empty if none
 };
 
-/// Computes the penalty, and adds a factor times its derivatives to the gradient. The result has
-/// the same bits for any number of threads and any order of the triangles. In the plane, triangles
-/// with their circumcentre outside the domain do not count, see Cells::has_centre(), nor do
-/// their edges' ratios; shapes of fixed generators alone do not count either.
+/// Computes the penalty, and adds its derivatives to the gradient. The result has the same bits for
+/// any number of threads and any order of the triangles. In the plane, triangles with their
+/// circumcentre outside the domain do not count, see Cells::has_centre(), nor do their edges'
+/// ratios; shapes of fixed generators alone do not count either.
 ///
 /// \param triangles all that may be beyond a limit; each once.
 template <Space S>
 ShapeTerms add_shape_terms(const ShapeInput<S>& input, std::vector<std::int32_t> triangles,
-                           double factor, Points3& gradient);
+                           const ShapeFactors& factors, Points3& gradient);
 
 /// The largest excess of a triangle beyond the limits, and of its edges.
 template <Space S> double shape_excess(const ShapeInput<S>& input, std::int32_t triangle);

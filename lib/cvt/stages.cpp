@@ -260,6 +260,16 @@ ShapeLimits limits_of_glide(const State& state) {
   return state.cursor.glides < course::early_glides ? early_glide_limits() : shape_limits;
 }
 
+ShapePenalty penalty_of(const State& state, const CvtStop& stop) {
+  ShapePenalty penalty;
+  penalty.spacing = state.polish.demanded_spacing;
+  penalty.limits.least_spacing = stop.least_spacing;
+  penalty.limits.most_off_midpoint = stop.most_off_midpoint;
+  const int raised = state.action().kind == Kind::raise ? state.cursor.times : 0;
+  penalty.factors = {state.polish.penalty, state.polish.penalty / std::pow(course::raise, raised)};
+  return penalty;
+}
+
 DescentOptions make_descent_options(const State& state, const Recipe& recipe,
                                     const Density& density, const Quadrature& quadrature) {
   const CvtAction& action = state.action();

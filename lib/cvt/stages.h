@@ -57,6 +57,9 @@ bool may_glide(const State& state);
 /// near these, then shape_limits, so that few are left to the penalty.
 ShapeLimits limits_of_glide(const State& state);
 
+/// The penalty of the current action; factors of 0 before a polish.
+ShapePenalty penalty_of(const State& state, const CvtStop& stop);
+
 /// The current descent.
 /// \param density of the run, here and below as surface_density() gives it.
 /// \param quadrature of the run, see Execution. In a run with insertion, the descents before

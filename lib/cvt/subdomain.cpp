@@ -150,7 +150,7 @@ template <Space S> void Subdomain<S>::evaluate(const Points3& points, bool, bool
   iteration.linf = std::sqrt(iteration.linf);
   iteration.gradient = std::sqrt(iteration.gradient);
   out.penalty = 0;
-  if (penalty_.factor > 0)
+  if (penalty_.factors.shapes > 0)
     add_penalty(out);
 }
 
@@ -161,10 +161,10 @@ template <Space S> void Subdomain<S>::add_penalty(Evaluation& out) {
   const ShapeInput<S> input{positioned(), inverse_spacing, penalty_.limits, stays_};
   Points3 gradient = Points3::Zero(3, x_.size());
   gradient.leftCols(movable()) = out.gradient;
-  out.shapes = add_shape_terms(input, distorted(input), penalty_.factor, gradient);
+  out.shapes = add_shape_terms(input, distorted(input), penalty_.factors, gradient);
   out.gradient = gradient.leftCols(movable());
   make_tangential(out.gradient, points_, {0, movable()});
-  out.penalty = penalty_.factor * out.shapes.value;
+  out.penalty = out.shapes.value;
   out.iteration.shape_excess = out.shapes.worst;
 }
 
@@ -202,7 +202,7 @@ Evaluation descend(Subdomain<S>& part, const Points3& start, const LocalInput& i
   const DescentOptions options{.method = Method::lbfgs};
   State state;
   state.points = start;
-  state.polish.penalty = penalty.factor;
+  state.polish.penalty = penalty.factors.shapes;
   part.penalise(penalty);
   Descent descent(state, options, input.density, part);
   descent.begin();

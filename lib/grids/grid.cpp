@@ -85,7 +85,8 @@ std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
 void require_schedule(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   base_detail::require(cvt_detail::are_actions(schedule.actions, recipe.fixed.cols()) &&
-                           cvt_detail::is_least_spacing(recipe.stop.least_spacing),
+                           cvt_detail::is_least_spacing(recipe.stop.least_spacing) &&
+                           cvt_detail::is_most_off_midpoint(recipe.stop.most_off_midpoint),
                        "the schedule lacks choices; give one of plan()");
 }
 

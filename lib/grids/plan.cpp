@@ -65,6 +65,9 @@ void require_values(const Recipe& recipe) {
   require(cvt_detail::is_least_spacing(stop.least_spacing),
           "least_spacing is {}; give a share of the demanded spacing, 0 to 0.95",
           stop.least_spacing);
+  require(cvt_detail::is_most_off_midpoint(stop.most_off_midpoint),
+          "most_off_midpoint is {}; give a share of an edge's length, above 0 and at most 1",
+          stop.most_off_midpoint);
 }
 
 /// \throws Error with the index of a fixed generator that is no point of the surface's kind.

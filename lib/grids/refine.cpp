@@ -328,7 +328,7 @@ std::int64_t bad_shapes(const ChangedMesh& changed) {
     const DoubleVector no_spacing = DoubleVector::Zero(mesh.points.cols());
     const ShapeInput<S> input{{cells, faces, points}, no_spacing, shape_limits, stays};
     Points3 unused = Points3::Zero(3, mesh.points.cols());
-    return add_shape_terms(input, distorted(input), 0, unused).generators;
+    return add_shape_terms(input, distorted(input), {}, unused).generators;
   });
 }
 

@@ -420,6 +420,7 @@ static void refused_recipes(void) {
   REFUSES(iterations, 0, "iterations is 0; give 1 or more");
   REFUSES(well_centred, 2, "well_centred is 2; give 0 or 1");
   REFUSES(least_spacing, 1, "spacing");
+  REFUSES(most_off_midpoint, 0, "most_off_midpoint is 0; give a share");
   REFUSES(limited_area, 1, "limited area");
   REFUSES(limited_area, 2, "limited_area is 2; give 0 or 1");
   REFUSES(walls_x, 1, "walls");

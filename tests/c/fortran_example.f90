@@ -44,6 +44,7 @@ module calotte
     integer(c_int64_t) :: boundary_generators = 0, refuse_duplicates = 0
     real(c_double) :: merge_within = 0
     type(c_ptr) :: widths_file = c_null_ptr
+    real(c_double) :: most_off_midpoint = 0
   end type
 
   type, bind(c) :: calotte_report

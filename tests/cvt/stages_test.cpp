@@ -7,6 +7,7 @@
 #include "support/errors.h"
 #include "support/files.h"
 #include "support/sanitizer.h"
+#include "support/text.h"
 
 #include <calotte/check.h>
 #include <calotte/checkpoint.h>
@@ -22,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -223,6 +225,23 @@ TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
   CHECK(finished.report.well_centred);
   CHECK(!pure.report.well_centred);
   CHECK(finished.report.iterations.size() == pure.report.iterations.size() + 1);
+}
+
+TEST_CASE("stages: a finish lessens the errors of operators at dislocations") {
+  Recipe recipe = graded(4000, x8());
+  const Cvt usual = make_grid(recipe);
+  recipe.stop.most_off_midpoint = 0.01;
+  const Cvt nearer = make_grid(recipe);
+  CHECK(nearer.report.well_centred);
+  CHECK(nearer.report.iterations.size() > usual.report.iterations.size() + 10);
+  const OperatorErrors with = operator_errors(nearer.mesh), without = operator_errors(usual.mesh);
+  CHECK(with.off_midpoint.max < 0.8 * without.off_midpoint.max);
+  CHECK(with.laplacian.l2 < 0.9 * without.laplacian.l2);
+  CHECK(with.laplacian.max < 0.8 * without.laplacian.max);
+  for (const double value : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
+    recipe.stop.most_off_midpoint = value;
+    CHECK(has(refusal_of([&] { make_grid(recipe); }), "most_off_midpoint is "));
+  }
 }
 
 TEST_CASE("stages: a least spacing is kept, or the report says that it is not") {

@@ -10,6 +10,8 @@
 #include <calotte/generators.h>
 #include <calotte/grid.h>
 #include <calotte/quality.h>
+#include <calotte/surface.h>
+#include <calotte/voronoi.h>
 
 #include <doctest/doctest.h>
 
@@ -206,11 +208,70 @@ TEST_CASE("subdomains: a polish leaves fewer shapes beyond the limits") {
   const Quality before = quality(delaunay(pure), x8());
   const double cell = before.energy / 4000;
   ShapePenalty penalty;
-  penalty.factor = 60 * cell;
+  penalty.factors.shapes = 60 * cell;
   penalty.spacing = std::sqrt(before.energy * 4000 / density_detail::hexagon_energy) / 4000;
   penalty.spacing = density_detail::hexagon_width(penalty.spacing);
   REQUIRE(before.obtuse > 5);
   CHECK(polish(run.tessellation, run.points, run.input(), penalty) > 0);
   CHECK(is_delaunay(run));
   CHECK(quality(delaunay(run.points), x8()).obtuse < before.obtuse / 3);
+}
+
+TEST_CASE("shapes: the gradient of a penalty is its derivative") {
+  constexpr double h = 1e-6;
+  for (const Surface& surface : {Surface::sphere(), Surface::periodic({1, 1})}) {
+    CAPTURE(surface.is_sphere());
+    const Points3 x = make_grid({.cells = 300,
+                                 .surface = surface,
+                                 .start = {.kind = CvtStart::Kind::random},
+                                 .stop = {.iterations = 20}})
+                          .mesh.points;
+    const auto functional = make_functional(x, surface, Density{}, {});
+    Points3 way = random_sphere(x.cols(), 1);
+    functional->make_tangential(way, x, {0, x.cols()});
+    const auto evaluated = [&](const ShapeFactors& factors, double step) {
+      ShapePenalty penalty;
+      penalty.factors = factors;
+      penalty.spacing = std::sqrt(surface.area() / 260);
+      penalty.limits.most_off_midpoint = 0.02;
+      functional->penalise(penalty);
+      Points3 moved = x;
+      functional->retract(x, step, way, moved);
+      Evaluation out;
+      functional->evaluate(moved, false, true, out);
+      return out;
+    };
+    const Evaluation here = evaluated({1, 3}, 0), pure = evaluated({}, 0);
+    CHECK(here.shapes.off_midpoint > 0);
+    CHECK(here.penalty > here.shapes.off_midpoint);
+    const double slope = (here.gradient - pure.gradient).cwiseProduct(way).sum(),
+                 difference = evaluated({1, 3}, h).penalty - evaluated({1, 3}, -h).penalty;
+    CHECK(slope == doctest::Approx(difference / (2 * h)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("shapes: a penalty of midpoints is the sum over edges of their squared excesses") {
+  constexpr double most = 0.02;
+  const Mesh mesh = make_grid({.cells = 4000,
+                               .resolution = x8(),
+                               .start = {.kind = CvtStart::Kind::density},
+                               .stop = {.tolerance = 1e-3}})
+                        .mesh;
+  const Voronoi dual = voronoi(mesh);
+  double sum = 0;
+  for (Eigen::Index e = 0; e < dual.dc.size(); ++e) {
+    const auto right = dual.vertices.col(dual.vertices_on_edge(0, e)),
+               left = dual.vertices.col(dual.vertices_on_edge(1, e));
+    const double offset = ((right + left).normalized() - dual.edges.col(e)).norm() / dual.dc[e];
+    sum += std::pow(std::max(offset - most, 0.0), 2);
+  }
+  const auto functional = make_functional(mesh.points, Surface::sphere(), x8(), {});
+  ShapePenalty penalty;
+  penalty.factors = {1, 1};
+  penalty.limits.most_off_midpoint = most;
+  functional->penalise(penalty);
+  Evaluation out;
+  functional->evaluate(mesh.points, false, true, out);
+  CHECK(sum > 0);
+  CHECK(out.shapes.off_midpoint == doctest::Approx(sum).epsilon(0.02)); // triangles count as flat
 }

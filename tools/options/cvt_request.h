@@ -36,8 +36,9 @@ struct CvtRequest {
   std::shared_ptr<DensityWords> density;
   std::string method = "auto";
   std::string norm = "l2-scaled";
-  std::optional<std::string> stop;     ///< default: see Stop
-  std::optional<double> least_spacing; ///< of a run that ends well-centred
+  std::optional<std::string> stop;         ///< default: see Stop
+  std::optional<double> least_spacing;     ///< of a run that ends well-centred
+  std::optional<double> most_off_midpoint; ///< the same
   std::optional<double> given_tolerance;
   int max_iterations = CvtStop{}.max_iterations;
   std::optional<int> iterations;

@@ -35,9 +35,13 @@ std::string start_of(const CvtRequest& request, const CvtInput& input, const Sch
 std::string stopping_rule(const CvtRequest& request, const CvtStop& stop) {
   if (stop.iterations)
     return message("iterations {}\n", *stop.iterations);
-  return message("norm {}{}\ntolerance {}\nmax-iterations {}\n", request.norm,
-                 request.least_spacing ? "\nleast-spacing " + shortest(*request.least_spacing) : "",
-                 shortest(*stop.tolerance), stop.max_iterations);
+  const auto given = [](const std::string& name, const std::optional<double>& value) {
+    return value ? message("\n{} {}", name, shortest(*value)) : "";
+  };
+  return message("norm {}{}{}\ntolerance {}\nmax-iterations {}\n", request.norm,
+                 given("least-spacing", request.least_spacing),
+                 given("most-off-midpoint", request.most_off_midpoint), shortest(*stop.tolerance),
+                 stop.max_iterations);
 }
 
 } // namespace

@@ -82,6 +82,7 @@ CvtStop stop_of(const CvtRequest& request) {
   if (request.stop)
     stop.well_centred = *request.stop == "well-centred";
   stop.least_spacing = request.least_spacing.value_or(stop.least_spacing);
+  stop.most_off_midpoint = request.most_off_midpoint.value_or(stop.most_off_midpoint);
   return stop;
 }
 
@@ -214,6 +215,8 @@ void require_used(const CvtRequest& request, const Schedule& schedule) {
            "it out");
   if (request.least_spacing && !*schedule.recipe.stop.well_centred)
     refuse("--least-spacing applies to --stop well-centred only; leave it out");
+  if (request.most_off_midpoint && !*schedule.recipe.stop.well_centred)
+    refuse("--most-off-midpoint applies to --stop well-centred only; leave it out");
 }
 
 std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& input,

@@ -432,6 +432,7 @@ class Recipe:
     iterations: int | None
     well_centred: bool | None
     least_spacing: float
+    most_off_midpoint: float
     points: _Array
     fixed: _Array
     lines: Any

@@ -748,7 +748,8 @@ def cvt(cells: int | None = None, *, density: DensityLike | None = None,
         lines: Path | Sequence[ArrayLike] | None = None, seed: int = _USUAL.seed,
         method: str = _USUAL.method, norm: str = _USUAL.norm, tolerance: float | None = None,
         max_iterations: int = _USUAL.max_iterations, well_centred: bool | None = None,
-        least_spacing: float = _USUAL.least_spacing, insertion_rounds: int | None = None,
+        least_spacing: float = _USUAL.least_spacing,
+        most_off_midpoint: float = _USUAL.most_off_midpoint, insertion_rounds: int | None = None,
         start: str = _USUAL.start, bisections: int | None = None, iterations: int | None = None,
         boundary: str = _USUAL.boundary, walls: str = _USUAL.walls,
         limited_area: bool = _USUAL.limited_area, duplicates: str = _USUAL.duplicates,
@@ -787,6 +788,9 @@ def cvt(cells: int | None = None, *, density: DensityLike | None = None,
         the start multilevel, unless iterations are given.
     least_spacing: with well_centred, the least distance of neighbours over the demanded width, 0 to
         0.95.
+    most_off_midpoint: with well_centred, the distance between the midpoints of an edge and of its
+        Voronoi edge, over the edge, above which generators are moved to lessen it. 0.01 halves a
+        model's largest errors; default 1, nowhere.
     insertion_rounds: of the start multilevel, on its last level; default as `calotte cvt`.
     start: multilevel, continuation, density, random, fibonacci, spiral, icosahedron, geodesic or
         hexagonal, as `calotte cvt --start`. Default: multilevel where a density, widths,
@@ -817,7 +821,8 @@ def cvt(cells: int | None = None, *, density: DensityLike | None = None,
     recipe = _recipe(
         cells, density, cell_width, surface, fixed, lines, earth_radius, points, seed=seed, method=method,
         norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
-        least_spacing=least_spacing, insertion_rounds=insertion_rounds, start=start,
+        least_spacing=least_spacing, most_off_midpoint=most_off_midpoint,
+        insertion_rounds=insertion_rounds, start=start,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
         limited_area=limited_area, duplicates=duplicates, merge_within=merge_within)
     schedule = _calotte.plan(recipe)

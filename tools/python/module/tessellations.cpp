@@ -122,6 +122,7 @@ void add_recipe(py::module_& module) {
   of_stop("iterations", &CvtStop::iterations);
   of_stop("well_centred", &CvtStop::well_centred);
   of_stop("least_spacing", &CvtStop::least_spacing);
+  of_stop("most_off_midpoint", &CvtStop::most_off_midpoint);
   add_points_field(
       type, "points", [](auto& recipe) -> auto& { return recipe.start.points; });
   add_points_field(
