@@ -94,6 +94,36 @@ public:
     }
   }
 
+  /// Calls body(item) for the items for which distance(bounds) is less than a limit, roughly from
+  /// the nearest on. A body that lowers the limit to what it finds soon leaves little to visit.
+  /// \param distance must be no larger for the bounds of a node than for those of an item below.
+  template <class Distance, class Body>
+  void visit_nearest(const Distance& distance, const double& limit, const Body& body) const {
+    if (order_.empty())
+      return;
+    struct {
+      std::size_t node;
+      double distance;
+    } waiting[64]; // a node for each level, and its sibling
+    std::size_t count = 0;
+    waiting[count++] = {1, distance(nodes_[1])};
+    while (count > 0) {
+      const auto [node, away] = waiting[--count];
+      if (!(away < limit))
+        continue;
+      if (node < leaves_) {
+        const double first = distance(nodes_[2 * node]), second = distance(nodes_[2 * node + 1]);
+        const bool first_is_nearer = first <= second;
+        waiting[count++] = {2 * node + (first_is_nearer ? 1 : 0), std::max(first, second)};
+        waiting[count++] = {2 * node + (first_is_nearer ? 0 : 1), std::min(first, second)};
+        continue;
+      }
+      for (std::size_t k = first_of(node - leaves_); k < first_of(node - leaves_ + 1); ++k)
+        if (distance(own_[k]) < limit)
+          body(order_[k]);
+    }
+  }
+
 private:
   static constexpr std::size_t items_of_leaf = 4;
 

@@ -6,6 +6,7 @@
 #include "density/room.h"
 #include "density/width_rules.h"
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -19,10 +20,13 @@ struct Disc {
   double width;  ///< km
 };
 
-/// Bounds of a group of discs.
+/// Bounds of a group of discs, whose widths grow by a gradient.
 struct DiscBounds {
   Box3 centres;
   double radius = 0, width = Widths::no_demand; ///< the largest, the least
+  /// The least of the widths that their growth implies at the centres. With a limited gradient
+  /// it bounds the widths more tightly than the radius.
+  double at_centre = Widths::no_demand;
 };
 DiscBounds joined(const DiscBounds& a, const DiscBounds& b);
 
@@ -30,7 +34,9 @@ DiscBounds joined(const DiscBounds& a, const DiscBounds& b);
 /// gradient, widths grow from the discs: the minimum is an additively weighted distance.
 class DiscRule : public WidthRule {
 public:
-  explicit DiscRule(std::vector<Disc> discs);
+  /// \param gradient km per radian; infinite without a limit.
+  explicit DiscRule(std::vector<Disc> discs,
+                    double gradient = std::numeric_limits<double>::infinity());
   void evaluate(std::span<const Vec3> points, std::span<double> widths) const override;
   void lower(std::span<const Vec3> points, std::span<double> widths) const override;
   Bounds bounds(const Vec3& point, double reach) const override;
@@ -38,21 +44,11 @@ public:
   std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const override;
 
 private:
-  /// The data that copies with other gradients share.
-  struct Discs {
-    std::vector<Disc> all;
-    BoundsTree<DiscBounds> tree;
-  };
+  double least_width(const Vec3& point, double reach, double least = Widths::no_demand) const;
 
-  DiscRule(std::shared_ptr<const Discs> discs, double gradient)
-      : discs_(std::move(discs)), gradient_(gradient) {}
-  double grown(double width, double beyond) const;
-  double width_at(const Vec3& point, const Disc& disc, double reach = 0) const;
-  double least_within(const Vec3& point, double reach, std::int32_t& last,
-                      double least = Widths::no_demand) const;
-
-  std::shared_ptr<const Discs> discs_;
-  double gradient_; ///< km per radian; infinite without a limit
+  std::vector<Disc> discs_;
+  double gradient_;
+  BoundsTree<DiscBounds> tree_;
 };
 
 } // namespace calotte::density_detail

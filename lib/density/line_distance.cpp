@@ -3,6 +3,8 @@
 
 #include "base/elementary.h"
 #include "base/require.h"
+#include "base/vector_loops.h"
+#include "density/least_of_items.h"
 #include "domain/lines.h"
 #include "domain/outline.h"
 
@@ -74,37 +76,79 @@ LineDistance::LineDistance(const std::vector<Points3>& lines, const Surface& sur
     : sphere_(surface.is_sphere()), arcs_(with_copies(make_arcs(lines, sphere_), surface.period())),
       tree_(sphere_ ? ArcTree(arcs_) : tree_in_plane(arcs_)) {}
 
-double LineDistance::square_from(std::int32_t item, const Vec3& p) const {
-  const Arc& arc = arcs_[static_cast<std::size_t>(item)];
-  if (!sphere_)
-    return domain_detail::square_from(Outline::Edge{{arc.from.x, arc.from.y}, {arc.to.x, arc.to.y}},
-                                      {p.x, p.y});
-  const Vec3 &a = arc.from, &b = arc.to;
-  if (a.x != b.x || a.y != b.y || a.z != b.z) // an arc of one point has equal ends, see make_arcs()
-    return domain_detail::square_from(arc, p);
-  const Vec3 apart = p - arc.from;
-  return dot(apart, apart);
+namespace {
+
+/// A straight line of a plane, with the interface of ArcDistance.
+class EdgeDistance {
+public:
+  explicit EdgeDistance(const Arc& line)
+      : edge_{{line.from.x, line.from.y}, {line.to.x, line.to.y}} {}
+  double square_from(const Vec3& p) const { return domain_detail::square_from(edge_, {p.x, p.y}); }
+
+private:
+  Outline::Edge edge_;
+};
+
+template <class Line>
+CALOTTE_VECTOR_WIDTHS void set_distances(const Line& line, const PointRow& points,
+                                         RowValues& distances) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t k = 0; k < row_size; ++k)
+    distances[k] = std::sqrt(line.square_from({points.x[k], points.y[k], points.z[k]}));
 }
 
-void LineDistance::operator()(std::span<const Vec3> points, std::span<double> distances) const {
-  std::int32_t nearest = -1;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vec3& p = points[k];
-    double least = nearest < 0 ? std::numeric_limits<double>::infinity() : square_from(nearest, p);
-    // Rounding must not exclude a line: otherwise the last bit would depend on the previous point.
-    constexpr double rounding = 1e-9;
-    tree_.visit(
-        [&](const Box3& box) {
-          return curve_detail::square_from(box, p) * (1 - rounding) <= least + 1e-28;
-        },
-        [&](std::int32_t item) {
-          if (const double square = square_from(item, p); square < least) {
-            least = square;
-            nearest = item;
-          }
-        });
-    const double chord = std::sqrt(least);
-    distances[k] = sphere_ ? 2 * base_detail::arc_sine(std::min(1.0, 0.5 * chord)) : chord;
+template <class Line>
+CALOTTE_VECTOR_WIDTHS void lower_squares(const Line& line, const PointRow& points,
+                                         RowValues& squares) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t k = 0; k < row_size; ++k)
+    squares[k] = std::min(squares[k], line.square_from({points.x[k], points.y[k], points.z[k]}));
+}
+
+/// Squares of distances from lines, see lower_to_least(). Their bounds are distances.
+template <class Line> class LineSquares {
+public:
+  using Item = Line;
+  LineSquares(const std::vector<Arc>& lines, const BoxTree& tree, double farthest)
+      : lines_(lines), tree_(tree), farthest_(farthest) {}
+
+  const BoxTree& tree() const { return tree_; }
+  double least(const Box3& box, const Ball& ball, double) const {
+    return std::sqrt(curve_detail::square_from(box, ball.middle)) - ball.reach;
+  }
+  Line item(std::int32_t k) const { return Line(lines_[static_cast<std::size_t>(k)]); }
+  void set_bounds(const Line& line, const PointRow& middles, const RowValues& reaches,
+                  RowValues& least, RowValues& greatest) const {
+    constexpr double rounding = 1e-9, tiny = 1e-14;
+    set_distances(line, middles, least);
+    for (std::size_t k = 0; k < row_size; ++k) {
+      greatest[k] = (least[k] + reaches[k]) * (1 + rounding) + tiny;
+      least[k] -= reaches[k];
+    }
+  }
+  void lower(const Line& line, const PointRow& points, RowValues& squares) const {
+    lower_squares(line, points, squares);
+  }
+  double bound(double) const { return farthest_; }
+
+private:
+  const std::vector<Arc>& lines_;
+  const BoxTree& tree_;
+  double farthest_;
+};
+
+} // namespace
+
+void LineDistance::operator()(std::span<const Vec3> points, std::span<double> distances,
+                              double farthest) const {
+  std::fill(distances.begin(), distances.end(), std::numeric_limits<double>::max()); // of squares
+  if (sphere_)
+    lower_to_least(LineSquares<ArcDistance>(arcs_, tree_, farthest), points, distances);
+  else
+    lower_to_least(LineSquares<EdgeDistance>(arcs_, tree_, farthest), points, distances);
+  for (double& distance : distances) {
+    const double chord = std::sqrt(distance);
+    distance = sphere_ ? 2 * base_detail::arc_sine(std::min(1.0, 0.5 * chord)) : chord;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <calotte/mesh.h>
 #include <calotte/surface.h>
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,9 +24,11 @@ public:
 
   bool on_sphere() const { return sphere_; }
 
-  /// The distances at unit vectors, in radians; in a plane at x y 0, in its unit. Faster if each
-  /// point is near the previous one.
-  void operator()(std::span<const Vec3> points, std::span<double> distances) const;
+  /// The distances at unit vectors, in radians; in a plane at x y 0, in its unit. Faster if
+  /// consecutive points are near each other.
+  /// \param farthest distances beyond it may come out larger than they are.
+  void operator()(std::span<const Vec3> points, std::span<double> distances,
+                  double farthest = std::numeric_limits<double>::infinity()) const;
 
   double operator()(const Vec3& point) const {
     double distance = 0;
@@ -34,8 +37,6 @@ public:
   }
 
 private:
-  double square_from(std::int32_t item, const Vec3& p) const;
-
   bool sphere_;
   std::vector<Arc> arcs_; ///< or straight lines; of a point both ends are the same
   BoxTree tree_;

@@ -261,7 +261,15 @@ SampledWidths sample_tiles(const Widths& widths, const TileBox& box, const Surfa
   WidthTiles tiles(box, shapes);
   base_detail::for_each_task(tiles.size(), [&](std::int64_t k) {
     const std::vector<Vec3> points = tiles.points(k);
-    rule->evaluate(points, {tiles.values(k), points.size()});
+    const std::vector<std::int32_t> order = tiles.near_order(k);
+    std::vector<Vec3> near;
+    near.reserve(order.size());
+    for (const std::int32_t node : order)
+      near.push_back(points[static_cast<std::size_t>(node)]);
+    std::vector<double> widths(near.size());
+    rule->evaluate(near, widths);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      tiles.values(k)[order[i]] = widths[i];
   });
   const bool whole = std::all_of(tiles.values().begin(), tiles.values().end(),
                                  [](double width) { return Widths::is_demand(width); });

@@ -3,6 +3,7 @@
 
 #include "base/require.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace calotte::density_detail {
@@ -111,6 +112,21 @@ Bounds ProfileCurve::bounds(double low, double high) const {
   for (; node != nodes_.end() && node->x <= last; ++node)
     bounds.add(node->width);
   return bounds;
+}
+
+double ProfileCurve::farthest_below(double width) const {
+  constexpr double rounding = 1e-9;
+  double farthest = 0;
+  const auto add_end = [&](const Node& end, double slope) {
+    if (end.width < width)
+      farthest = std::max(farthest, std::abs(end.x) + (width - end.width) / slope);
+  };
+  add_end(nodes_.front(), low_slope_);
+  add_end(nodes_.back(), high_slope_);
+  for (std::size_t k = 1; k < nodes_.size(); ++k)
+    if (std::min(nodes_[k - 1].width, nodes_[k].width) < width)
+      farthest = std::max({farthest, std::abs(nodes_[k - 1].x), std::abs(nodes_[k].x)});
+  return std::min(farthest, std::max(-low_, high_)) * (1 + rounding);
 }
 
 bool ProfileCurve::grows_from_zero() const {

@@ -44,6 +44,8 @@ public:
 
   /// The bounds of its values between two numbers, which may be infinite.
   Bounds bounds(double low, double high) const;
+  /// The largest size of a number at which the value may be less than a width, or more than that.
+  double farthest_below(double width) const;
   /// Whether its values nowhere decrease away from 0, in either direction.
   bool grows_from_zero() const;
 

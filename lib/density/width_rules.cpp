@@ -161,9 +161,7 @@ public:
         distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)),
         unit_(distance_->on_sphere() ? radius_km : 1) {}
   void evaluate(std::span<const Vec3> points, std::span<double> values) const override {
-    (*distance_)(points, values);
-    for (std::size_t k = 0; k < points.size(); ++k)
-      values[k] = curve_(number_of(points[k], values[k]));
+    evaluate_up_to(std::numeric_limits<double>::infinity(), points, values);
   }
   /// The distance changes by at most the length of a path.
   Bounds bounds(const Vec3& point, double reach) const override {
@@ -173,6 +171,13 @@ public:
 
 protected:
   const ProfileCurve& curve() const { return curve_; }
+  /// Beyond a number of the curve, the values may be those of larger numbers.
+  void evaluate_up_to(double farthest, std::span<const Vec3> points,
+                      std::span<double> values) const {
+    (*distance_)(points, values, farthest / unit_);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      values[k] = curve_(number_of(points[k], values[k]));
+  }
   std::shared_ptr<const LineDistance> distance_;
   IsBehind is_behind_;
 
@@ -188,6 +193,14 @@ private:
 class WidthByDistance : public DistanceRule<WidthRule> {
 public:
   using DistanceRule::DistanceRule;
+  /// Lines where the curve is not below the widths do not matter.
+  void lower(std::span<const Vec3> points, std::span<double> widths) const override {
+    std::vector<double> own(widths.size());
+    const double farthest = curve().farthest_below(*std::max_element(widths.begin(), widths.end()));
+    evaluate_up_to(farthest, points, own);
+    std::transform(widths.begin(), widths.end(), own.begin(), widths.begin(),
+                   [](double a, double b) { return std::min(a, b); });
+  }
   /// The limit is exact: along the shortest path to the line, the distance changes by the path's
   /// length.
   Rule limited(double gradient, double radius_km) const override {

@@ -111,6 +111,43 @@ std::vector<Vec3> WidthTiles::points(std::int64_t tile) const {
   return points;
 }
 
+namespace {
+
+/// Some columns and rows of nodes.
+struct NodeBlock {
+  std::int32_t west, columns, south, rows;
+};
+
+/// Appends the nodes of a block, half by half.
+void append_halves(const NodeBlock& block, std::int32_t stride, std::vector<std::int32_t>& nodes) {
+  if (block.columns == 1 && block.rows == 1) {
+    nodes.push_back(block.south * stride + block.west);
+    return;
+  }
+  NodeBlock first = block, second = block;
+  if (block.columns > block.rows) {
+    first.columns /= 2;
+    second.west += first.columns;
+    second.columns -= first.columns;
+  } else {
+    first.rows /= 2;
+    second.south += first.rows;
+    second.rows -= first.rows;
+  }
+  append_halves(first, stride, nodes);
+  append_halves(second, stride, nodes);
+}
+
+} // namespace
+
+std::vector<std::int32_t> WidthTiles::near_order(std::int64_t tile) const {
+  const TileNodes nodes = at(tile);
+  std::vector<std::int32_t> order;
+  order.reserve(static_cast<std::size_t>((nodes.columns + 1) * (nodes.rows + 1)));
+  append_halves({0, nodes.columns + 1, 0, nodes.rows + 1}, nodes.columns + 1, order);
+  return order;
+}
+
 /// \param across whether b lies east of a; else it lies north.
 void WidthTiles::join(std::int64_t a, std::int64_t b, bool across) {
   const TileNodes of_a = at(a), of_b = at(b);

@@ -93,6 +93,8 @@ public:
   const std::vector<double>& values() const { return values_; } ///< tile by tile
   /// The points of a tile's nodes, in the order of its values: unit vectors, or x y 0.
   std::vector<Vec3> points(std::int64_t tile) const;
+  /// The nodes of a tile, as indices of its values, in an order that keeps near ones together.
+  std::vector<std::int32_t> near_order(std::int64_t tile) const;
   /// Calls body(x, y, value) for the nodes of a tile; x and y in degrees, or in the plane's unit.
   template <class Body> void for_each_node(std::int64_t tile, const Body& body) {
     const TileNodes nodes = at(tile);

@@ -40,25 +40,10 @@ Box3 box_of(const Arc& arc) {
   return {ends.low - margin, ends.high + margin};
 }
 
-namespace {
-
-/// \param arc of at most a quarter turn.
-double square_from_part(const Arc& arc, const Vec3& p) {
-  const Vec3 across = cross(arc.from + arc.to, arc.to - arc.from); // without cancellation
-  const Vec3 normal = (1 / norm(across)) * across;
-  if (dot(cross(normal, arc.from), p) >= 0 && dot(cross(arc.to, normal), p) >= 0) {
-    const double sine = dot(normal, p), square = std::min(1.0, sine * sine);
-    return 2 * square / (1 + std::sqrt(1 - square));
-  }
-  const Vec3 a = p - arc.from, b = p - arc.to;
-  return std::min(dot(a, a), dot(b, b));
-}
-
-} // namespace
-
 double square_from(const Arc& arc, const Vec3& p) {
   double least = 4;
-  for_each_part(arc, [&](const Arc& part) { least = std::min(least, square_from_part(part, p)); });
+  for_each_part(
+      arc, [&](const Arc& part) { least = std::min(least, ArcDistance(part).square_from(p)); });
   return least;
 }
 

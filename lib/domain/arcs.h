@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vector_loops.h"
 #include "curve/box_tree.h"
 #include "domain/room.h"
 #include "exact/predicates.h"
 
 #include <algorithm>
+#include <cmath>
 
 /// Arcs of great circles and exact decisions on them.
 namespace calotte::domain_detail {
@@ -90,5 +92,30 @@ Box3 box_of(const Arc& arc);
 
 /// The square of the chord between a unit vector and the nearest point of an arc; rounded.
 double square_from(const Arc& arc, const Vec3& p);
+
+/// An arc of at most a quarter turn, or a point, prepared for the distances of many unit vectors.
+class ArcDistance {
+public:
+  explicit ArcDistance(const Arc& arc) : arc_(arc) {
+    const Vec3 across = cross(arc.from + arc.to, arc.to - arc.from); // without cancellation
+    normal_ =
+        (1 / norm(across)) * across; // not a number for a point, which has no points beside it
+    from_start_ = cross(normal_, arc.from);
+    to_end_ = cross(arc.to, normal_);
+  }
+
+  /// square_from() of the arc.
+  CALOTTE_INLINE double square_from(const Vec3& p) const {
+    const double sine = dot(normal_, p), square = std::min(1.0, sine * sine),
+                 beside = 2 * square / (1 + std::sqrt(1 - square));
+    const Vec3 a = p - arc_.from, b = p - arc_.to;
+    const bool is_beside = (dot(from_start_, p) >= 0) & (dot(to_end_, p) >= 0);
+    return is_beside ? beside : std::min(dot(a, a), dot(b, b));
+  }
+
+private:
+  Arc arc_;
+  Vec3 normal_, from_start_, to_end_; ///< the two point along the arc at its ends, inwards
+};
 
 } // namespace calotte::domain_detail

@@ -140,6 +140,33 @@ TEST_CASE("each width depends on its place alone, whatever is asked before it") 
   }
 }
 
+TEST_CASE("points near each other, which share a search, have the widths that each has alone") {
+  Points3 places = random_sphere(1200, 6);
+  for (Eigen::Index i = 0; i < places.cols(); ++i) { // in three groups, of 10, 100 and 1000 km
+    const Eigen::Vector3d centre = test::direction(10 + 40 * (i / 400), 58 - 25 * (i / 400));
+    places.col(i) = (centre + 0.0016 * std::pow(10.0, static_cast<double>(i / 400)) * places.col(i))
+                        .normalized();
+  }
+  std::vector<std::pair<std::string, Widths>> all = rules();
+  const Coast coast = test::gshhg('c');
+  const Widths channels = Widths::by_channel(coast, {.cells = 2, .least = 120, .widest = 500});
+  all.emplace_back("limited channels", channels.limit_gradient(0.03));
+  // Of a minimum, later rules lower the widths of earlier ones.
+  all.emplace_back("lowered", Widths::minimum({170.0, all[4].second, all[2].second, channels}));
+  for (const auto& [name, rule] : all) {
+    CAPTURE(name);
+    const DoubleVector together = evaluate(rule, places);
+    int differ = 0;
+    for (Eigen::Index k = 0; k < places.cols(); ++k)
+      differ += evaluate(rule, Points3(places.col(k)))[0] != together[k];
+    CHECK(differ == 0);
+  }
+  const auto at = [&](std::size_t rule) { return evaluate(all[rule].second, places); };
+  const DoubleVector least = at(4).cwiseMin(at(2)).cwiseMin(at(9)).cwiseMin(170);
+  CHECK(evaluate(all.back().second, places) == least);
+  CHECK((least.array() < 170).any());
+}
+
 // Slow: each rule is limited twice.
 TEST_CASE("a rule and its limit have the same bits in each run, for any number of threads [slow]") {
   const Points3 places = random_sphere(3000, 4);
