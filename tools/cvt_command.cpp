@@ -360,6 +360,12 @@ void warn_of_result(const CvtRequest& request, const Schedule& schedule,
                          ? "the hexagonal lattice has whole rows and columns; --start density"
                          : "bisections of a domain with a boundary leave out midpoints outside "
                            "it; --start multilevel"));
+  if (outcome.report.moved_on_lines > 0)
+    complain(
+        message("{} of {} generators on lines have moved by up to {} of the cell width, for shapes "
+                "within their limits",
+                outcome.report.moved_on_lines, schedule.on_lines,
+                formatted("%.2f", outcome.report.farthest_move)));
   if (outcome.report.off_boundary > 0)
     warn(message("the mesh leaves the boundary of the region in places: {} of its outer edges do "
                  "not join the {} generators on the boundary; where the region or what it leaves "

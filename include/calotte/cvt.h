@@ -148,8 +148,10 @@ struct Recipe {
   /// Generators that stay where they are, 3 x n, the first columns of the result. A unit column, up
   /// to round-off, keeps its bits. Default: none.
   Points3 fixed = {};
-  /// Lines that generators follow, such as rivers. These generators stay, too; they come after the
-  /// fixed ones. See line_points(). Default: none.
+  /// Lines that generators follow, such as rivers. These generators come after the fixed ones, see
+  /// line_points(). They stay, too, but for a few next to shapes that a polish does not bring
+  /// within its limits otherwise; confluences and ends last. See CvtReport::moved_on_lines.
+  /// Default: none.
   std::vector<Points3> lines = {};
   CvtStart start = {};                       ///< the generators to begin with
   CvtStop stop = {};                         ///< the end of the run
@@ -208,7 +210,8 @@ struct CvtAction {
     insert,   ///< a round of insertion and contraction, see split_and_collapse()
     converge, ///< none: the generators of the last round descend to the requested end
     polish,   ///< the descent minimises a penalty for shapes, too, see CvtStop::well_centred
-    raise,    ///< the polish continues with a larger penalty, where it did not suffice
+    raise,    ///< the polish continues with a larger penalty, and moves generators on lines
+              ///< next to shapes beyond their limits, where it did not suffice
   };
   Kind kind = Kind::start; ///< see Kind
   /// The number of generators at the end of the action; for `start` and `bisect`, at the end of the
@@ -237,6 +240,7 @@ struct Schedule {
   double implied_cells = 0;                       ///< by the widths; 0 without
   std::int64_t on_boundary = 0; ///< the last of the fixed generators, by Boundary::generators
   std::int64_t on_lines = 0;    ///< fixed generators before those, by Recipe::lines
+  std::int64_t line_ends = 0;   ///< the first of those, see LinePoints::ends
   double from_lines = 0;        ///< see LinePoints::farthest
 };
 
@@ -256,6 +260,9 @@ struct CvtReport {
   /// After a polish that did not succeed: the number of cells whose triangles are beyond a limit.
   std::int64_t cells_beyond_limits = 0;
   std::int64_t worst_cell = -1; ///< one with the shape farthest beyond; -1 for none
+  /// The number of generators on lines that a polish moved, see Recipe::lines.
+  std::int64_t moved_on_lines = 0;
+  double farthest_move = 0; ///< the largest of their distances from where they were, in widths
   /// With Boundary::generators: the number of the mesh's outer edges that do not join generators on
   /// the boundary, or that are missing there; 0 if the mesh ends at the boundary all around. The
   /// mesh may leave the boundary where the surface, or a gap in it, is narrower than a cell.

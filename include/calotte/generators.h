@@ -77,7 +77,8 @@ Points3 boundary_points(const Surface& surface, std::int64_t cells, const Densit
 
 /// Generators along lines.
 struct LinePoints {
-  Points3 points; ///< 3 x n
+  Points3 points;        ///< 3 x n
+  std::int64_t ends = 0; ///< number of those at confluences and ends of lines: the first columns
   /// The largest distance of a point on the lines from the nearest of them, over the distance of
   /// neighbours that is demanded there; a half where generators follow each other at that distance.
   double farthest = 0;

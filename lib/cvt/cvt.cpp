@@ -13,7 +13,9 @@
 #include "cvt/levels.h"
 #include "cvt/stages.h"
 #include "cvt/state.h"
+#include "density/hexagons.h"
 #include "density/surface_density.h"
+#include "domain/arcs.h"
 #include "domain/surface.h"
 
 #include <calotte/error.h>
@@ -117,9 +119,10 @@ void work_locally(State& state, const DescentOptions& options, RunFunctional& fu
     ++state.cursor.glides;
     conclude(state, options, descent.here());
   }
+  const int raised = state.action().kind == CvtAction::Kind::raise ? state.cursor.times : 0;
   const bool at_start =
-      state.memory.iterations == 1 && state.action().kind == CvtAction::Kind::polish;
-  if (at_start && !state.report.converged && functional.polish(state.points) > 0) {
+      state.in_polish() && state.memory.iterations == 1 && (raised == 0 || state.has_lines());
+  if (at_start && !state.report.converged && functional.polish(state.points, raised) > 0) {
     descent.restart();
     conclude(state, options, descent.here());
   }
@@ -205,9 +208,33 @@ Run make_run(const Schedule& schedule, const Execution& execution) {
   return {schedule, execution, checked_surface_density(schedule.density, surface)};
 }
 
+/// Reports how far the generators on lines are from where the recipe has them.
+void measure_moves(State& state, const Recipe& recipe, const Density& density) {
+  for (std::size_t r = 0; r < state.id.size(); ++r) {
+    const std::int32_t id = state.id[r];
+    if (!state.on_lines.contain(id))
+      continue;
+    const Vec3 here = column(state.points, static_cast<std::int64_t>(r)),
+               before = recipe.surface.is_sphere()
+                            ? domain_detail::as_unit(column(recipe.fixed, id))
+                            : Vec3(column(recipe.fixed, id));
+    const double move = norm(here - before);
+    if (!(move > 0))
+      continue;
+    ++state.report.moved_on_lines;
+    const double spacing = state.polish.demanded_spacing /
+                           std::sqrt(std::sqrt(evaluate(density, recipe.fixed.col(id))[0]));
+    state.report.farthest_move = std::max(state.report.farthest_move,
+                                          move / density_detail::hexagon_width(spacing * spacing));
+  }
+}
+
 Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& callback) {
   State& state = State::of(whole);
   const Recipe& recipe = run.schedule.recipe;
+  const std::int64_t end = recipe.fixed.cols() - run.schedule.on_boundary,
+                     first = end - run.schedule.on_lines;
+  state.on_lines = {first, first + run.schedule.line_ends, end};
   require_points(state, recipe.surface);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
@@ -219,6 +246,7 @@ Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& c
     ending = iterate(run, whole, std::move(begun), callback);
   }
   add_done(state);
+  measure_moves(state, recipe, run.density);
   state.memory = {};
   Cvt result;
   result.mesh =

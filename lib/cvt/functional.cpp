@@ -199,9 +199,7 @@ public:
   std::int64_t glide(Points3& points, const ShapeLimits& limits) override {
     return cvt_detail::glide(tessellation_, points, local_input(), limits);
   }
-  std::int64_t polish(Points3& points) override {
-    return cvt_detail::polish(tessellation_, points, local_input(), penalty_);
-  }
+  std::int64_t polish(Points3& points, int raised) override;
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const override;
   void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) const override;
@@ -294,6 +292,17 @@ void FunctionalOver<S>::set_centroids(const Points3& points, const Evaluation& a
                  is_fixed(i) ? x : Cells<S>::centroid(x, column(at.gradient, i), at.mass[i]));
     }
   });
+}
+
+template <Space S> std::int64_t FunctionalOver<S>::polish(Points3& points, int raised) {
+  const auto pins = [&] {
+    return raised == 0 ? fixed_
+                       : released(tessellation_, points, local_input(), penalty_,
+                                  raised < 3 ? pinned_on_line : pinned_at_end);
+  };
+  if (raised > 1)
+    cvt_detail::glide(tessellation_, points, {density_, coarse_, pins()}, penalty_.limits);
+  return cvt_detail::polish(tessellation_, points, {density_, coarse_, pins()}, penalty_);
 }
 
 template <Space S> void FunctionalOver<S>::add_penalty(const Points3& points, Evaluation& out) {

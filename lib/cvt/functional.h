@@ -74,7 +74,7 @@ public:
 
   /// Pins generators: each counts as being at its centroid, its gradient is 0, and it does not
   /// move.
-  /// \param fixed a flag for each generator; empty if none is pinned.
+  /// \param fixed by generator, see shape.h; empty if none is pinned.
   virtual void pin(std::vector<std::uint8_t> fixed) = 0;
 
   /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
@@ -82,7 +82,11 @@ public:
 
   /// Polishes shapes in subdomains, see polish.h. Returns the number of subdomains; 0 if the points
   /// stay.
-  virtual std::int64_t polish(Points3& points) = 0;
+  /// \param raised how often the penalty has been raised. Then generators at bad shapes may move
+  /// that
+  ///        are pinned on lines, from the third time on at the ends of these, too. From the second
+  ///        time on dislocations are moved among them.
+  virtual std::int64_t polish(Points3& points, int raised) = 0;
 
   virtual std::vector<CvtRegion> regions() const = 0;
 

@@ -238,6 +238,11 @@ double dislocations(const Mesh& mesh, const Density& density) {
   return per_edge * sum;
 }
 
+std::int64_t count_odd(const Mesh& mesh) {
+  const std::vector<std::int8_t> odd = oddities(mesh);
+  return std::ssize(odd) - std::count(odd.begin(), odd.end(), 0);
+}
+
 Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes) {
   return in_space_of(mesh.surface, [&](const Space auto& space) {
     return change_edges(mesh, points_of_run(mesh, changes.fixed), density, space, changes);

@@ -18,6 +18,9 @@ namespace calotte::cvt_detail {
 /// \pre here and below, the density is that of surface_density().
 double dislocations(const Mesh& mesh, const Density& density);
 
+/// The number of sites with 8 or more sides, or 4 or fewer, which relaxation does not repair.
+std::int64_t count_odd(const Mesh& mesh);
+
 /// The options of a split and collapse of edges.
 struct EdgeChanges {
   std::int64_t splits = 0, collapses = 0; ///< numbers of edges

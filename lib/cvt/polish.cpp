@@ -14,11 +14,12 @@ namespace {
 
 using Seeds = std::vector<std::array<std::int32_t, 2>>;
 
-/// The triangles with shapes beyond the limits, the worst ones first. The triangulation alone
-/// determines the order.
+/// The triangles with shapes farther beyond the limits than `beyond`, the worst ones first. The
+/// triangulation alone determines the order.
 template <Space S>
 Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
-                   const LocalInput& input, const ShapePenalty& penalty) {
+                   const LocalInput& input, const ShapePenalty& penalty,
+                   double beyond = polished_excess) {
   const DoubleVector inverse_spacing =
       evaluate(input.density, points).cwiseSqrt().cwiseSqrt() / penalty.spacing;
   const ShapeInput<S> shapes{tessellation.positioned(), inverse_spacing, penalty.limits,
@@ -30,7 +31,7 @@ Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
   };
   std::vector<Shape> found;
   for (const std::int32_t t : distorted(shapes))
-    if (const double excess = shape_excess(shapes, t); excess > polished_excess) {
+    if (const double excess = shape_excess(shapes, t); excess > beyond) {
       std::array<std::int32_t, 3> sites;
       for (int v = 0; v < 3; ++v)
         sites[static_cast<std::size_t>(v)] = tessellation.mesh().triangles(v, t);
@@ -68,6 +69,19 @@ bool polish_part(Subdomain<S>& part, const LocalInput& input, ShapePenalty penal
 } // namespace
 
 template <Space S>
+std::vector<std::uint8_t> released(const Tessellation<S>& tessellation, const Points3& points,
+                                   const LocalInput& input, const ShapePenalty& penalty,
+                                   std::uint8_t firmest) {
+  std::vector<std::uint8_t> fixed = input.fixed;
+  for (const auto& [triangle, same] :
+       worst_shapes(tessellation, points, input, penalty, accepted_excess))
+    for (const std::int32_t site : tessellation.mesh().triangles.col(triangle))
+      if (site < std::ssize(fixed) && fixed[static_cast<std::size_t>(site)] <= firmest)
+        fixed[static_cast<std::size_t>(site)] = 0;
+  return fixed;
+}
+
+template <Space S>
 std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
                     const ShapePenalty& penalty) {
   constexpr int most_rounds = 4; // shapes near each other are polished one after another
@@ -92,6 +106,10 @@ std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalI
   return count;
 }
 
+template std::vector<std::uint8_t> released(const Tessellation<Sphere>&, const Points3&,
+                                            const LocalInput&, const ShapePenalty&, std::uint8_t);
+template std::vector<std::uint8_t> released(const Tessellation<Plane>&, const Points3&,
+                                            const LocalInput&, const ShapePenalty&, std::uint8_t);
 template std::int64_t polish(Tessellation<Sphere>&, Points3&, const LocalInput&,
                              const ShapePenalty&);
 template std::int64_t polish(Tessellation<Plane>&, Points3&, const LocalInput&,

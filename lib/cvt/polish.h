@@ -9,6 +9,7 @@
 #include <calotte/mesh.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace calotte::cvt_detail {
 
@@ -24,5 +25,12 @@ namespace calotte::cvt_detail {
 template <Space S>
 std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
                     const ShapePenalty& penalty);
+
+/// The pins of the input without those of generators at shapes more than accepted_excess beyond the
+/// limits. \param firmest kind of pin that is taken away, such as pinned_on_line.
+template <Space S>
+std::vector<std::uint8_t> released(const Tessellation<S>& tessellation, const Points3& points,
+                                   const LocalInput& input, const ShapePenalty& penalty,
+                                   std::uint8_t firmest);
 
 } // namespace calotte::cvt_detail

@@ -123,7 +123,7 @@ public:
 
 private:
   bool is_fixed(std::int32_t i) const {
-    return !fixed_.empty() && fixed_[static_cast<std::size_t>(i)] != 0;
+    return !fixed_.empty() && fixed_[static_cast<std::size_t>(i)] == pinned;
   }
   bool may_change(const Angle& angle) const {
     return !is_fixed(angle.a) || !is_fixed(angle.b) || !is_fixed(angle.c);

@@ -54,6 +54,10 @@ constexpr ShapeLimits early_glide_limits() {
   return limits;
 }
 
+/// How firmly a generator is pinned; 0 for one that moves. A polish releases some of those on
+/// lines, and later of those at their ends and confluences.
+inline constexpr std::uint8_t pinned_on_line = 1, pinned_at_end = 2, pinned = 3;
+
 /// The factors of squared excesses in a penalty.
 struct ShapeFactors {
   double shapes = 0;       ///< of angles, ratios and lengths; 0 for no penalty
@@ -81,7 +85,7 @@ template <Space S> struct ShapeInput {
   PositionedMesh<S> mesh;
   const DoubleVector& inverse_spacing; ///< 1/h by generator, h the spacing that the density demands
   const ShapeLimits& limits;
-  const std::vector<std::uint8_t>& fixed; ///< a flag for each generator that stays; empty if none
+  const std::vector<std::uint8_t>& fixed; ///< by generator, whether it is pinned; empty if none is
 };
 
 /// Computes the penalty, and adds its derivatives to the gradient. The result has the same bits for

@@ -29,15 +29,19 @@ using Kind = CvtAction::Kind;
 int count_of_round(const State& state) { return state.memory.iterations > course::steep ? 2 : 1; }
 
 /// The edges that a round splits and collapses: an equal number of each while rounds are left, and
-/// in addition the difference to the number of cells at the level's end.
+/// in addition the difference to the number of cells at the level's end. Between lines there are
+/// cells whose number of sides relaxation does not repair, also where widths are uniform.
 EdgeChanges plan_edge_changes(const State& state, const Mesh& mesh, const Density& density) {
   const CvtAction& action = state.action();
   const std::int64_t n = mesh.points.cols();
   std::int64_t both = 0;
-  if (state.cursor.times < action.times)
+  if (state.cursor.times < action.times) {
     both = static_cast<std::int64_t>(
         std::ceil(std::min(course::share_of_dislocations * dislocations(mesh, density),
                            course::share_of_generators * static_cast<double>(n))));
+    if (state.has_lines())
+      both = std::max(both, count_odd(mesh));
+  }
   return {both + std::max<std::int64_t>(action.cells - n, 0),
           both + std::max<std::int64_t>(n - action.cells, 0), state.fixed};
 }
@@ -68,7 +72,7 @@ bool is_due(const State& state, const Cursor& cursor) {
            (kind_after(state, cursor) == Kind::converge && state.points.cols() != action.cells &&
             may_come_nearer(cursor));
   return action.kind == Kind::raise && !state.report.converged && cursor.times < action.times &&
-         last_accepted(state).shape_excess < reachable_excess;
+         (last_accepted(state).shape_excess < reachable_excess || state.has_lines());
 }
 
 bool inserts(const State& state) { return has(state, Kind::insert); }

@@ -2,6 +2,7 @@
 #include "cvt/state.h"
 
 #include "base/parallel.h"
+#include "cvt/shape.h"
 
 #include <utility>
 
@@ -17,7 +18,10 @@ CvtState State::wrapped(State&& state) {
 std::vector<std::uint8_t> fixed_generators(const State& state) {
   std::vector<std::uint8_t> fixed(state.fixed > 0 ? state.id.size() : 0);
   for (std::size_t r = 0; r < fixed.size(); ++r)
-    fixed[r] = state.id[r] < state.fixed ? 1 : 0;
+    if (const std::int32_t id = state.id[r]; id < state.fixed)
+      fixed[r] = !state.on_lines.contain(id) ? pinned
+                 : id < state.on_lines.inner ? pinned_at_end
+                                             : pinned_on_line;
   return fixed;
 }
 

@@ -51,6 +51,13 @@ struct State {
   std::vector<std::int32_t> id;            ///< of each: its column in the result
   std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
   std::int64_t fixed = 0;                  ///< generators with lower ids stay where they are
+  /// Of these, the ids of those that follow lines: from `first` on and below `end`; those below
+  /// `inner` are at ends and confluences. Where a polish does not suffice, they move. The schedule
+  /// says which; checkpoints do not.
+  struct {
+    std::int64_t first = 0, inner = 0, end = 0;
+    bool contain(std::int32_t id) const { return id >= first && id < end; }
+  } on_lines;
   Cursor cursor;
   Polish polish;
   Memory memory;
@@ -61,9 +68,10 @@ struct State {
     return report.actions[static_cast<std::size_t>(cursor.action)];
   }
   bool in_polish() const { return polish.penalty > 0; }
+  bool has_lines() const { return on_lines.first < on_lines.end; }
 };
 
-/// Whether each generator stays where it is; empty if none does.
+/// By generator, whether it is pinned, see shape.h; empty if none is.
 std::vector<std::uint8_t> fixed_generators(const State& state);
 
 /// The generators in the order of the result.

@@ -69,7 +69,7 @@ template <Space S> void Subdomain<S>::number_sites(const LocalInput& input) {
   patch_.sites = part_.sites;
   generators_ = std::count_if(part_.sites.begin(), part_.sites.end(),
                               [&](std::int32_t site) { return site < cells_.generator_count(); });
-  stays_.assign(part_.sites.size(), 1);
+  stays_.assign(part_.sites.size(), pinned);
   std::fill_n(stays_.begin(), patch_.owned, 0);
 }
 

@@ -32,7 +32,7 @@ namespace calotte::cvt_detail {
 struct LocalInput {
   const Density& density;
   const Integrand& integrand;
-  const std::vector<std::uint8_t>& fixed; ///< a flag for each generator that stays, or empty
+  const std::vector<std::uint8_t>& fixed; ///< by generator, whether it is pinned, or empty
 };
 
 /// Some triangles of a mesh, as a functional of the generators inside. The generators on the

@@ -49,12 +49,14 @@ public:
       for (std::size_t id = 0; id < network.points.size(); ++id)
         if (is(id, confluence))
           positions_.push_back(network.points[id]);
+    ends_ = positions_.size();
     for (const std::vector<std::int32_t>& chain : network.chains)
       if (chain.size() > 1)
         add(network, chain, longest);
   }
 
   const std::vector<Vec3>& positions() const { return positions_; }
+  std::size_t ends() const { return ends_; } ///< number of those at confluences and ends
   const std::vector<Curve<S>>& curves() const { return curves_; }
 
 private:
@@ -75,6 +77,7 @@ private:
 
   const DemandedSpacing& spacing_;
   std::vector<Vec3> positions_;
+  std::size_t ends_ = 0;
   std::vector<Curve<S>> curves_;
 };
 
@@ -84,16 +87,16 @@ double edge_at(const DemandedSpacing& spacing, const Vec3& x) {
 }
 
 /// Selects positions that are no nearer than two thirds of the demanded edge to a previously
-/// selected position or to other points.
-std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>& positions,
-                        const DemandedSpacing& spacing, bool sphere) {
+/// selected position or to other points. Returns their indices.
+std::vector<std::size_t> apart(const std::vector<Vec3>& others, const std::vector<Vec3>& positions,
+                               const DemandedSpacing& spacing, bool sphere) {
   constexpr double nearest = 2.0 / 3;
   std::vector<Vec3> all = others;
   all.insert(all.end(), positions.begin(), positions.end());
   std::vector<std::uint8_t> taken(all.size(), 0);
   std::fill_n(taken.begin(), others.size(), 1);
   const BoxTree tree = tree_of(all, sphere);
-  std::vector<Vec3> kept;
+  std::vector<std::size_t> kept;
   for (std::size_t k = others.size(); k < all.size(); ++k) {
     const double reach = nearest * edge_at(spacing, all[k]);
     bool near = false;
@@ -102,7 +105,7 @@ std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>
     if (near)
       continue;
     taken[k] = 1;
-    kept.push_back(all[k]);
+    kept.push_back(k - others.size());
   }
   return kept;
 }
@@ -152,11 +155,15 @@ LinePoints points_on_lines(const std::vector<Points3>& lines, const Surface& sur
   require_inside(lines, surface);
   const Candidates<S> candidates(network, spacing, longest_step<S>(surface));
   const std::vector<Vec3> others = columns_of(beside, S::on_sphere);
-  std::vector<Vec3> points = apart(others, candidates.positions(), spacing, S::on_sphere);
+  std::vector<Vec3> points;
+  LinePoints out;
+  for (const std::size_t k : apart(others, candidates.positions(), spacing, S::on_sphere)) {
+    points.push_back(candidates.positions()[k]);
+    out.ends += k < candidates.ends() ? 1 : 0;
+  }
   for (const Vec3& x : points)
     require(side_of<S>(outline_of<S>(surface), x) != Side::outside,
             "a line crosses what the surface leaves out, at {} {} {}; cut it there", x.x, x.y, x.z);
-  LinePoints out;
   out.points.resize(3, std::ssize(points));
   for (std::size_t k = 0; k < points.size(); ++k)
     base_detail::set_column(out.points, static_cast<std::int64_t>(k), points[k]);

@@ -290,6 +290,7 @@ void take_curves(Schedule& schedule) {
     recipe.fixed = joined(recipe.fixed, lines.points);
     recipe.lines = {};
     schedule.on_lines = lines.points.cols();
+    schedule.line_ends = lines.ends;
     schedule.from_lines = lines.farthest;
   }
   recipe.fixed = joined(recipe.fixed, boundary);
@@ -388,7 +389,7 @@ Schedule plan(Recipe recipe) {
   const FirstLevel first = first_level(schedule);
   schedule.first = first.kind;
   require_room(all, first);
-  schedule.actions = actions_of(all, first);
+  schedule.actions = actions_of(all, first, schedule.on_lines > 0);
   return schedule;
 }
 

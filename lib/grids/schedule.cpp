@@ -37,7 +37,7 @@ CvtAction early(CvtAction end) {
 
 } // namespace
 
-std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first) {
+std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first, bool has_lines) {
   const CvtStop& stop = recipe.stop;
   const int rounds = recipe.start.insertion_rounds.value_or(0);
   CvtAction end;
@@ -68,7 +68,8 @@ std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first)
   if (*stop.well_centred && end.max_iterations > 0) { // which begins where a descent ended
     const CvtAction polish{.norm = end.norm, .max_iterations = course::polish_iterations};
     add(Kind::polish, polish, cells);
-    add(Kind::raise, polish, cells, course::most_raised);
+    add(Kind::raise, polish, cells,
+        has_lines ? course::most_raised_beside_lines : course::most_raised);
   }
   return actions;
 }

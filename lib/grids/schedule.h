@@ -12,6 +12,8 @@ namespace calotte::grids_detail {
 
 /// The actions of a run, see cvt/stages.h.
 /// \param recipe with all choices made, except the number of bisections.
-std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first);
+/// \param has_lines whether some of its fixed generators are on lines.
+std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first,
+                                  bool has_lines = false);
 
 } // namespace calotte::grids_detail

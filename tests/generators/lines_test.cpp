@@ -175,6 +175,34 @@ TEST_CASE("lines: a grid keeps them, in the plane, too") {
   CHECK(distance_to(grid.mesh.points, line.col(2)) == 0);
 }
 
+// Slow: runs to a well-centred end.
+TEST_CASE("lines: cells are within the limits where they meet [slow]") {
+  std::vector<Points3> lines;
+  for (int k = 0; k < 12; ++k)
+    for (int arm = 0; arm < 3; ++arm) {
+      const double bearing = (17 * k * k + 120 * arm + 35 * std::sin(7 * k + 2 * arm)) * degree,
+                   lon = 30 * k, lat = 12 * (k % 5 - 2);
+      std::vector<std::array<double, 2>> line;
+      for (const double far : {0, 6, 11, 16})
+        line.push_back({lon + far * std::cos(bearing + far / 30) / std::cos(lat * degree),
+                        lat + far * std::sin(bearing + far / 30)});
+      lines.push_back(directions(line));
+    }
+  const Schedule schedule = plan({.cells = 5000, .lines = lines});
+  const Cvt grid = make_grid(schedule);
+  CHECK(grid.report.well_centred);
+  const Points3 &before = schedule.recipe.fixed,
+                &after = grid.mesh.points.leftCols(schedule.on_lines);
+  CHECK(schedule.line_ends >= 12 * 4 - 2); // ends of lines near others go
+  CHECK(after.leftCols(schedule.line_ends) == before.leftCols(schedule.line_ends));
+  const auto moves = (after - before).colwise().norm();
+  CHECK((moves.array() > 0).count() == grid.report.moved_on_lines);
+  CHECK(moves.maxCoeff() == doctest::Approx(grid.report.farthest_move * width(5000)).epsilon(1e-3));
+  CHECK(grid.report.moved_on_lines > 0); // otherwise this tests nothing
+  CHECK(grid.report.moved_on_lines < schedule.on_lines / 2);
+  CHECK(grid.report.farthest_move < 0.5);
+}
+
 TEST_CASE("lines: the same bits for any number of threads") {
   const Density density = tanh_bump(direction(175, 10), 20 * degree, 10 * degree, 1.0 / 256);
   const auto with = [&](std::size_t threads) {

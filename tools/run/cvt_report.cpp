@@ -101,7 +101,9 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
   }
   if (schedule.on_lines > 0)
     json["lines"] = {{"generators", schedule.on_lines},
-                     {"farthest_in_widths", schedule.from_lines}};
+                     {"farthest_in_widths", schedule.from_lines},
+                     {"moved", report.moved_on_lines},
+                     {"farthest_move_in_widths", report.farthest_move}};
   json["residual"] = report.residual;
   json["cells"] = cells;
   json["area"] = area;

@@ -541,6 +541,8 @@ class Cvt:
     well_centred: whether all shapes are within the limits of models.
     cells_beyond_limits: number of cells beyond them, where that was asked for.
     worst_cell: the cell farthest beyond them; -1 for none.
+    moved_on_lines: number of generators on lines that left these for the sake of shapes.
+    farthest_move: the largest of their distances from where they were, in cell widths.
     off_boundary: with boundary "generators" the number of the mesh's outer edges that do not join
         generators there; 0 if it ends at the boundary.
     residual: the norm at the end, relative to the spacing of the cells.
@@ -558,6 +560,8 @@ class Cvt:
     well_centred: bool
     cells_beyond_limits: int
     worst_cell: int
+    moved_on_lines: int
+    farthest_move: float
     off_boundary: int
     residual: float
     energy: float
@@ -779,7 +783,7 @@ def cvt(cells: int | None = None, *, density: DensityLike | None = None,
         leave the widths unmet.
     lines: that generators follow, such as rivers: a file, GeoJSON of LineString; or arrays as of
         fixed, one for each line. They are at the demanded distances; ends and confluences have one.
-        They follow the fixed ones in the result.
+        They follow the fixed ones in the result. Those next to bad shapes move, see Cvt.
     seed: of random points. method: auto, lloyd, lbfgs or lbfgs-laplacian.
     norm: that is compared with the tolerance: l2, linf, l2-scaled or linf-scaled.
     tolerance: default 1e-6, and 1e-4 with well_centred.

@@ -201,6 +201,8 @@ py::dict report_of(const CvtReport& report) {
   values["well_centred"] = report.well_centred;
   values["cells_beyond_limits"] = report.cells_beyond_limits;
   values["worst_cell"] = report.worst_cell;
+  values["moved_on_lines"] = report.moved_on_lines;
+  values["farthest_move"] = report.farthest_move;
   values["off_boundary"] = report.off_boundary;
   values["residual"] = report.residual;
   values["iterations"] = report.iterations.size();
