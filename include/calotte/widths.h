@@ -188,6 +188,10 @@ public:
   /// \throws Error invalid_argument for a surface without a boundary; naming the node, a profile
   ///         that is none, or a share that is not 0 to 1.
   WidthShare(const Surface& region, const WidthProfile& profile);
+  /// A share by the distance from a coast: > 0 in the sea, < 0 on land.
+  /// \throws Error invalid_argument as Widths::by_distance(); naming the node, for a share that is
+  ///         not 0 to 1.
+  WidthShare(const Coast& coast, const WidthProfile& profile);
   /// The fractions of a raster, such as those of land.
   /// \throws Error invalid_argument for one that violates the conditions of Raster, and naming the
   ///         node, for a value that is not 0 to 1.

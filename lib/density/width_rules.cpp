@@ -497,6 +497,13 @@ std::shared_ptr<const WidthsOfRadius> rule_of_sides(const std::vector<Points3>& 
   return of_sides<WidthByDistance, WidthRule>(lines, std::move(is_behind), curve, surface);
 }
 
+std::shared_ptr<const SharesOfRadius> share_of_sides(const std::vector<Points3>& lines,
+                                                     std::function<bool(const Vec3&)> is_behind,
+                                                     const ProfileCurve& curve,
+                                                     const Surface& surface) {
+  return of_sides<DistanceRule<ShareRule>, ShareRule>(lines, std::move(is_behind), curve, surface);
+}
+
 std::shared_ptr<const WidthRule> rule_of_field(const Raster& raster) {
   return std::make_shared<FieldRule>(raster);
 }
@@ -623,7 +630,7 @@ WidthShare::WidthShare(const Surface& region, const WidthProfile& profile) {
   const auto is_inside = [region](const Vec3& point) {
     return region.contains({point.x, point.y, point.z});
   };
-  rule_of_radius_ = of_sides<DistanceRule<ShareRule>, ShareRule>(
+  rule_of_radius_ = share_of_sides(
       closed_rings(region), is_inside,
       ProfileCurve(profile, "a distance", -farthest, farthest, "share", a_fraction), region);
 }

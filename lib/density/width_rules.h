@@ -122,6 +122,11 @@ std::shared_ptr<const WidthsOfRadius> rule_of_sides(const std::vector<Points3>& 
                                                     std::function<bool(const Vec3&)> is_behind,
                                                     const ProfileCurve& curve,
                                                     const Surface& surface = {});
+/// The same with a share by the distance.
+std::shared_ptr<const SharesOfRadius> share_of_sides(const std::vector<Points3>& lines,
+                                                     std::function<bool(const Vec3&)> is_behind,
+                                                     const ProfileCurve& curve,
+                                                     const Surface& surface = {});
 
 /// A rule that interpolates the values of a raster; no demand next to a node without one.
 std::shared_ptr<const WidthRule> rule_of_field(const Raster& raster);

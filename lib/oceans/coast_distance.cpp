@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/require.h"
+#include "base/vec3.h"
 #include "density/width_profile.h"
 #include "density/width_rules.h"
 #include "oceans/coast_sides.h"
 
 #include <calotte/widths.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -23,19 +25,30 @@ density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide sid
   return both ? curve : curve.within(-rounding, std::numeric_limits<double>::infinity());
 }
 
+/// Whether distances from a coast are negative at a point: on land, or with `from_land` elsewhere.
+std::function<bool(const base_detail::Vec3&)> behind_coast(const Coast& coast, bool from_land) {
+  using namespace oceans_detail;
+  const std::vector<CoastArc> arcs = coast_arcs(coast);
+  base_detail::require(!arcs.empty(), "the coast has no shore to be distant from; give rings");
+  return [sides = std::make_shared<const CoastSides>(arcs), from_land](const Vec3& point) {
+    return sides->is_land(point) != from_land;
+  };
+}
+
 } // namespace
 
 Widths Widths::by_distance(const Coast& coast, const WidthProfile& profile, CoastSide side) {
-  using namespace oceans_detail;
   const density_detail::ProfileCurve curve = curve_of(profile, side);
-  const std::vector<CoastArc> arcs = coast_arcs(coast);
-  base_detail::require(!arcs.empty(), "the coast has no shore to be distant from; give rings");
-  const auto sides = std::make_shared<const CoastSides>(arcs);
-  const bool on_land = side == CoastSide::land;
-  const auto is_behind = [sides, on_land](const Vec3& point) {
-    return sides->is_land(point) != on_land;
-  };
-  return Widths(density_detail::rule_of_sides(shores(coast), is_behind, curve));
+  return Widths(density_detail::rule_of_sides(shores(coast),
+                                              behind_coast(coast, side == CoastSide::land), curve));
+}
+
+WidthShare::WidthShare(const Coast& coast, const WidthProfile& profile) {
+  constexpr double farthest = density_detail::farthest_on_sphere;
+  const density_detail::ProfileCurve curve(profile, "a distance", -farthest, farthest, "share",
+                                           density_detail::a_fraction);
+  rule_of_radius_ =
+      density_detail::share_of_sides(shores(coast), behind_coast(coast, false), curve);
 }
 
 } // namespace calotte

@@ -145,6 +145,16 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
             "blend = [60, 20]\nshare = \"island.geojson\"\nprofile = [[-500, 1], [0, 0.5]]") ==
         evaluate(Widths::blend(60.0, 20.0, WidthShare(island, {{{-500, 1}, {0, 0.5}}})),
                  sample_points()));
+  const DoubleVector land = rules.widths("blend = [60, 20]\nshare = \"island.geojson\"\nleast-area "
+                                         "= 1\nprofile = [[-500, 1], [0, 0.5]]");
+  CHECK((land - evaluate(Widths::blend(60.0, 20.0, WidthShare(island, {{{-500, 1}, {0, 0.5}}})),
+                         sample_points()))
+            .cwiseAbs()
+            .maxCoeff() < 1e-9);
+  CHECK(rules
+            .refused("[cell-width]\nblend = [60, 20]\nshare = \"island.geojson\"\n"
+                     "least-area = 1e9\nover = 5")
+            .find("all land of the coast is smaller than the least area") != std::string::npos);
   CHECK(rules.refused("[cell-width]\nblend = [60, 20, 5]\nshare = \"half.nc\"") ==
         " line 2: blend holds 3 rules; give [A, B]");
   CHECK(rules.refused("[cell-width]\nblend = [60, 20]\nshare = 1") ==

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/constants.h"
 #include "support/directions.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/gshhg.h"
 
@@ -12,6 +13,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -56,6 +58,26 @@ TEST_CASE("distances from a coast are positive in the sea and negative on land")
     worst = std::max(worst, std::abs(got[i] - expected * degree * earth_radius_km));
   }
   CHECK(worst < 0.01); // km, of the polygons
+}
+
+TEST_CASE("a share by the distance from a coast: in the sea and on land") {
+  const auto ring = [](double lon, double lat, double radius) -> Points3 {
+    return circle(direction(lon, lat), radius * degree, 4000).rings().front();
+  };
+  const Coast coast{{ring(0, 90, 30), ring(150, -10, 20)}};
+  const Points3 places = random_sphere(2000, 3);
+  const DoubleVector from = distances(coast, places),
+                     got = evaluate(Widths::blend(30.0, 10.0, {coast, {{{-800, 1}, {200, 0.25}}}}),
+                                    places);
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    CHECK(got[i] ==
+          doctest::Approx(30 -
+                          20 * std::lerp(1.0, 0.25, std::clamp((from[i] + 800) / 1000, 0.0, 1.0)))
+              .epsilon(1e-9));
+  CHECK(message_of([&] {
+          WidthShare(coast, {{{0, 2}}});
+        }).find("not a fraction from 0 to 1") != std::string::npos);
+  CHECK(message_of([&] { WidthShare(Coast{}, {{{0, 1}}}); }).find("the coast has no shore") == 0);
 }
 
 TEST_CASE("an arc that runs back cancels one: a coast that passes an arc three times is closed") {

@@ -117,6 +117,16 @@ def test_two_rules_blend():
     assert widths.blend(20, 10, t)(0, 45) == pytest.approx(15, abs=0.01)
 
 
+def test_the_share_of_a_coast(tmp_path):
+    square = [[[-10, -10], [10, -10], [10, 10], [-10, 10], [-10, -10]]]
+    coast = written(tmp_path, "c.geojson", json.dumps({"type": "Polygon", "coordinates": square}))
+    km = RADIUS * np.pi / 180
+    t = widths.share(coast, profile=[(-5 * km, 1), (0, 0)], least_area=1)
+    assert widths.blend(30, 10, t)([0, 8, 12], [0, 0, 0]) == pytest.approx([10, 22, 30], rel=1e-9)
+    with pytest.raises(calotte.Error, match="over or a profile"):
+        widths.share(coast, least_area=1)
+
+
 def test_the_manual_has_one_ocean_in_toml_and_in_python(tmp_path, monkeypatch):
     page = (ROOT / "tools/manual/cell-widths.md").read_text()
     for name in ("ocean.toml", "straits.geojson", "bathymetry.py", "ocean.py"):

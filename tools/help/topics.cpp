@@ -83,7 +83,8 @@ A rule has one of these keys, which says what it is, and the keys after it:
   blend = [A, B]          (1 - t) A + t B, with the share t of B from 0 to 1 in share: a file of NetCDF
                           t(lat, lon), of `variable`, if it has several; or a REGION, in which t is
                           1. Outside, t falls to 0 at the distance `over`; or profile = [[KM, T],
-                          ...] from its boundary, negative inside; smooth
+                          ...] from its boundary, negative inside; smooth. With either it may be a
+                          coast: t is 1 on land; least-area as for by-distance
 
 Any rule takes also, in this order:
 

@@ -233,13 +233,16 @@ private:
     if (table.has("variable"))
       return read_raster(path, {.variable = table.text("variable", "its name"),
                                 .quantity = RasterQuantity::land_fraction});
-    if (table.has("profile"))
-      return WidthShare(part_in(path), table.pairs("profile"));
-    if (table.has("over")) {
-      const double over = distance_of(table, "over");
-      return WidthShare(part_in(path), {{{0, 1}, {over, 0}}, table.smooth()});
-    }
-    return share_in(path);
+    if (!table.has("profile") && !table.has("over"))
+      return share_in(path);
+    const WidthProfile profile =
+        table.has("profile")
+            ? table.pairs("profile")
+            : WidthProfile{{{0, 1}, {distance_of(table, "over"), 0}}, table.smooth()};
+    const bool is_coast = std::filesystem::path(path).extension() == ".nc"; // of GSHHG
+    if (surface_.is_sphere() && (is_coast || table.has("least-area")))
+      return WidthShare(coast(table, path), profile);
+    return WidthShare(part_in(path), profile);
   }
 
   Widths constant(RuleTable& table) { return table.number("width"); }

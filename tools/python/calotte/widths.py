@@ -140,14 +140,16 @@ def sum(*widths):  # noqa: A001: of the module
     return _calotte.combined_widths("sum", [rule(one) for one in widths])
 
 
-def share(region, over=None, *, profile=None, smooth=False, variable=""):
+def share(region, over=None, *, profile=None, smooth=False, least_area=0, variable=""):
     """A share from 0 to 1 for every place, for where() and blend().
 
     region: a Surface, or a file of one: 1 inside and 0 outside; or a NetCDF file with t(lat, lon), the
-        shares themselves, linear between nodes. variable: of a file with several.
+        shares themselves, linear between nodes; or with over or a profile a coast, GSHHG's .nc, whose
+        inside is the land. variable: of a file with several.
     over: outside the region the share falls to 0 at this distance, km; or
     profile: pairs of the distance from the region's boundary, negative inside, and a share. smooth: as
         for by_latitude().
+    least_area: of the islands and lakes that count, km^2 on the Earth, of a coast, then GeoJSON, too.
     """
     if isinstance(region, Share):
         return region
@@ -155,12 +157,18 @@ def share(region, over=None, *, profile=None, smooth=False, variable=""):
         _arguments.positive(over, "over", "km")
     if over is not None and profile is not None:
         raise _calotte.Error("give over, or a profile, but not both")
-    if str(region).endswith(".nc"):
+    by_distance = over is not None or profile is not None
+    if least_area and not (by_distance and _is_file(region)):
+        raise _calotte.Error("islands are left out of the distance from the coast of a file; give a file, and over or a "
+                             "profile")
+    if str(region).endswith(".nc") and not by_distance:
         return _calotte.share_of_raster(str(region), variable)
+    nodes = _nodes([(0, 1), (over, 0)] if profile is None else profile, "distances and shares") if by_distance else None
+    if by_distance and _is_file(region) and (str(region).endswith(".nc") or least_area):
+        return _calotte.share_by_distance_from_coast(str(region), nodes, smooth, least_area)
     surface = _arguments.surface(region)
-    if over is None and profile is None:
+    if not by_distance:
         return _calotte.share_of_region(surface)
-    nodes = _nodes([(0, 1), (over, 0)] if profile is None else profile, "distances and shares")
     return _calotte.share_by_distance(surface, nodes, smooth)
 
 

@@ -167,6 +167,12 @@ void add_widths(py::module_& module) {
   module.def("share_by_distance", [](const Surface& region, const Doubles& nodes, bool smooth) {
     return call([&, of = profile(nodes, smooth)] { return WidthShare(region, of); });
   });
+  module.def("share_by_distance_from_coast",
+             [](const std::string& path, const Doubles& nodes, bool smooth, double least_area) {
+               return call([&, of = profile(nodes, smooth)] {
+                 return WidthShare(coast_in(path, least_area), of);
+               });
+             });
   module.def("share_of_raster", [](const std::string& path, const std::string& variable) {
     return call([&] {
       return WidthShare(
