@@ -226,3 +226,48 @@ TEST_CASE("with the passages of the world the marginal seas belong to a coarse o
   for (std::size_t k = 1; k < without.report.severed_parts.size(); ++k)
     CHECK(without.report.severed_parts[k].cells <= without.report.severed_parts[k - 1].cells);
 }
+
+TEST_CASE("the widths of E3SM's unified meshes are polaris': ocean, coast, land and rivers") {
+  (void)gshhg('i'); // which the rules name
+  const auto widths = [](const std::string& name, const Points3& places) {
+    return evaluate(read_widths(CALOTTE_FIXTURES "/../../tools/examples/unified/" + name + ".toml"),
+                    places);
+  };
+  const auto at = [](double value) { return doctest::Approx(value).epsilon(0.01); };
+  // The Pacific at the equator and at 45 S, the Sahara, the Lena, and the way inland to the Sahara.
+  std::vector<std::array<double, 2>> places{{-130, 0}, {-130, -45}, {10, 24}, {127.3, 71.4}};
+  constexpr int steps = 60;
+  for (int k = 0; k <= steps; ++k)
+    places.push_back({-17.5 + 2.5 * k / steps, 20});
+  const Points3 x = directions(places);
+  const Coast coast = gshhg('i');
+  constexpr double far = 1e5;
+  const DoubleVector from =
+      evaluate(Widths::by_distance(coast, {{{-2e4, far - 2e4}, {2e4, far + 2e4}}}), x).array() -
+      far;
+  const auto ocean_so = [](double distance) {
+    return 12 + 9 * (1 + std::tanh((distance - 500) / 1600));
+  };
+  const double g = std::pow(6.0 / 18, 4);
+  const auto rrs = [g](double latitude) {
+    return 6 *
+           std::pow((1 - g) * std::pow(std::sin(latitude * std::numbers::pi / 180), 4) + g, -0.25);
+  };
+  const DoubleVector coarse = widths("u.oi240.lr240", x), oi30 = widths("u.oi30.lr10", x),
+                     so = widths("u.oi.so12to30.lr10", x), rrs_18 = widths("u.oi6to18.lr6to10", x);
+  CHECK(coarse == DoubleVector::Constant(x.cols(), 240));
+  CHECK(oi30.head(3) == DoubleVector{{30, 30, 10}});
+  CHECK(rrs_18[0] == at(18));
+  CHECK(rrs_18[1] == at(rrs(45)));
+  CHECK(rrs_18[2] == 10);
+  CHECK(rrs_18[3] == at(6));
+  CHECK(so[2] == 10);
+  for (Eigen::Index k = 0; k < 2; ++k) // from the nearest corner of the region
+    CHECK(so[k] == at(ocean_so(earth_radius_km * angle(x.col(k), direction(-124.5, -54)))));
+  for (Eigen::Index k = 4; k < x.cols(); ++k) {
+    const double inland = std::clamp(-from[k], 0.0, 60.0);
+    CHECK(oi30[k] == at(30 - inland / 60 * 20));
+    CHECK(so[k] == at(so[4] + inland / 60 * (10 - so[4])));
+    CHECK(rrs_18[k] == at(rrs(20) + std::min(inland / 36, 1.0) * (10 - rrs(20))));
+  }
+}
