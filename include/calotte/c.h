@@ -280,12 +280,12 @@ typedef struct calotte_recipe {
   /** 1: shapes are brought within the limits of models at the end; 0: they are not. Automatic: 1
    * for the start multilevel unless `iterations` is given, else 0. [CALOTTE_AUTOMATIC] */
   int64_t well_centred;
-  double least_spacing;        /**< of that end: the least edge over the spacing; 0 to 0.95 [0.8] */
-  int64_t seed;                /**< of random points [1] */
-  int64_t limited_area;        /**< 1: the surface, a part of the sphere, with rings around it, for
-                                  calotte_write_grid(); requires widths */
-  int64_t walls_x;             /**< 1: the box ends at walls in x; see calotte_write_grid() */
-  int64_t walls_y;             /**< 1: the same in y */
+  double least_spacing; /**< of that end: the least edge over the spacing; 0 to 0.95 [0.83] */
+  int64_t seed;         /**< of random points [1] */
+  int64_t limited_area; /**< 1: the surface, a part of the sphere, with rings around it, for
+                           calotte_write_grid(); requires widths */
+  int64_t walls_x;      /**< 1: the box ends at walls in x; see calotte_write_grid() */
+  int64_t walls_y;      /**< 1: the same in y */
   int64_t boundary_generators; /**< 1: the mesh of a part of the sphere ends at generators on the
                                   boundary; 0: the boundary clips cells */
   int64_t refuse_duplicates;   /**< 1: equal points of the start are an error; 0: they merge */

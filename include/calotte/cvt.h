@@ -109,7 +109,7 @@ struct CvtStop {
   /// dislocations at short Voronoi edges are moved along their rows, and the generators around them
   /// relax. Then the polish minimises the energy plus a penalty for the remaining shapes beyond the
   /// limits: angles of triangles from 38 to 87 degrees, Voronoi edges from 0.21 to 1.1 times the
-  /// length of the Delaunay edges across, and these from least_spacing to 1.3 times the spacing
+  /// length of the Delaunay edges across, and these from least_spacing to 1.23 times the spacing
   /// that the density demands. It moves generators next to such shapes away from their centroids.
   /// The mesh is well-centred if no cotangent and no ratio exceeds its limit by 0.03. Default: with
   /// kind multilevel, unless iterations are given.
@@ -117,7 +117,7 @@ struct CvtStop {
   /// At a well-centred end: the minimum length of a Delaunay edge, in units of the spacing that the
   /// density demands there; 0 to 0.95. Values near 1 move many generators away from their
   /// centroids.
-  double least_spacing = 0.8;
+  double least_spacing = 0.83;
   /// At a well-centred end: how far the midpoint of a Delaunay edge may be from that of its Voronoi
   /// edge, in units of the Delaunay edge, before the square of the excess is added to the penalty;
   /// > 0. The errors of a model's divergence and Laplacian are largest where these midpoints are

@@ -482,7 +482,7 @@ static void zeros(void) {
   expect(schedule.well_centred == 0 && schedule.tolerance == 1e-6, "its end");
 
   recipe.surface = NULL;
-  one = grid_of(&recipe, "the least spacing 0.8");
+  one = grid_of(&recipe, "the least spacing 0.83");
   other = recipe;
   other.least_spacing = 0;
   two = grid_of(&other, "any spacing");

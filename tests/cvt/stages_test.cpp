@@ -136,6 +136,9 @@ TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
       CHECK(check(grid.mesh).failure == "");
       check_shapes(grid.mesh);
       CHECK(grid.report.residual < 0.02);
+      const Percentiles lengths = quality(grid.mesh, density).dc_over_h;
+      CHECK(lengths.min > 0.80 - 0.01); // the demanded spacing follows from the energy
+      CHECK(lengths.max < 1.26 + 0.01);
     }
 }
 

@@ -145,7 +145,7 @@ void add_end(CLI::App& command, CvtRequest& request) {
       .add_option(
           "--least-spacing", request.least_spacing,
           "With --stop well-centred: least distance of neighbours over the demanded width, "
-          "0 to 0.95; default: 0.8. It decides a model's time step. Values near 1 move many "
+          "0 to 0.95; default: 0.83. It decides a model's time step. Values near 1 move many "
           "generators away from their centroids")
       ->check(CLI::Range(0.0, 0.95));
   command
