@@ -110,9 +110,9 @@ struct CvtStop {
   /// relax. Then the polish minimises the energy plus a penalty for the remaining shapes beyond the
   /// limits: angles of triangles from 38 to 87 degrees, Voronoi edges from 0.21 to 1.1 times the
   /// length of the Delaunay edges across, and these from least_spacing to 1.23 times the spacing
-  /// that the density demands. It moves generators next to such shapes away from their centroids.
-  /// The mesh is well-centred if no cotangent and no ratio exceeds its limit by 0.03. Default: with
-  /// kind multilevel, unless iterations are given.
+  /// that the density demands (1.3 beside fixed generators). It moves generators next to such
+  /// shapes away from their centroids. The mesh is well-centred if no cotangent and no ratio
+  /// exceeds its limit by 0.03. Default: with kind multilevel, unless iterations are given.
   std::optional<bool> well_centred = {};
   /// At a well-centred end: the minimum length of a Delaunay edge, in units of the spacing that the
   /// density demands there; 0 to 0.95. Values near 1 move many generators away from their

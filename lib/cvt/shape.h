@@ -37,6 +37,10 @@ struct ShapeLimits {
 };
 inline constexpr ShapeLimits shape_limits;
 
+/// ShapeLimits::most_spacing of runs with fixed generators, which leave others less choice: the
+/// first row from those on a boundary may be 1.32 times the demanded spacing away.
+inline constexpr double most_spacing_beside_fixed = 1.3;
+
 /// Whether values are valid as a run's CvtStop::least_spacing and CvtStop::most_off_midpoint.
 inline bool is_least_spacing(double spacing) { return spacing >= 0 && spacing <= 0.95; }
 inline bool is_most_off_midpoint(double offset) { return offset > 0 && offset <= any_off_midpoint; }

@@ -269,6 +269,8 @@ ShapePenalty penalty_of(const State& state, const CvtStop& stop) {
   penalty.spacing = state.polish.demanded_spacing;
   penalty.limits.least_spacing = stop.least_spacing;
   penalty.limits.most_off_midpoint = stop.most_off_midpoint;
+  if (state.fixed > 0)
+    penalty.limits.most_spacing = most_spacing_beside_fixed;
   const int raised = state.action().kind == Kind::raise ? state.cursor.times : 0;
   penalty.factors = {state.polish.penalty, state.polish.penalty / std::pow(course::raise, raised)};
   return penalty;

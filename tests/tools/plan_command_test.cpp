@@ -319,7 +319,7 @@ TEST_CASE("a budget is the number of cells, the memory or the step of the model"
   CHECK(step["model"]["step_seconds"].get<double>() == doctest::Approx(600).epsilon(2e-3));
   CHECK(step["model"]["step_seconds"].get<double>() >= 600);
   CHECK(step["width_km"]["min"].get<double>() ==
-        doctest::Approx(600 * 125 / 0.9 / 0.8 / 1000).epsilon(2e-3));
+        doctest::Approx(600 * 125 / 0.9 / 0.83 / 1000).epsilon(2e-3));
   CHECK(report("--budget step=10min")["cells"] == step["cells"]);
   check_success(bench, "cvt --cell-width rules.toml --budget 700-cells -o mesh.nc");
   CHECK(calotte::read_mesh(bench.path("mesh.nc")).points.cols() == 700);
