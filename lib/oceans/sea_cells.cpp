@@ -3,6 +3,7 @@
 
 #include "base/require.h"
 #include "mesh/rows.h"
+#include "oceans/parts.h"
 #include "oceans/room.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace calotte {
 namespace {
 
-using base_detail::require;
+using namespace oceans_detail;
 
 constexpr std::int32_t land = -1, sea = 0;
 
@@ -87,42 +88,12 @@ std::int64_t lock(const IdLists& cells_on_cell, const SeaOptions& options, Ids& 
   });
 }
 
-/// The parts of the sea.
-struct SeaParts {
-  Ids of_cell;                    ///< -1 for land
-  std::vector<std::int64_t> size; ///< cells of each
-};
-
-SeaParts find_parts(const IdLists& cells_on_cell, const Ids& of_cell) {
-  SeaParts parts{Ids::Constant(of_cell.size(), -1), {}};
-  std::vector<std::int32_t> stack;
-  for (std::int32_t first = 0; first < of_cell.size(); ++first) {
-    if (of_cell[first] != sea || parts.of_cell[first] >= 0)
-      continue;
-    const auto part = static_cast<std::int32_t>(parts.size.size());
-    parts.size.push_back(0);
-    parts.of_cell[first] = part;
-    stack.assign(1, first);
-    while (!stack.empty()) {
-      const std::int32_t cell = stack.back();
-      stack.pop_back();
-      ++parts.size.back();
-      for (const std::int32_t other : cells_on_cell[cell])
-        if (other >= 0 && of_cell[other] == sea && parts.of_cell[other] < 0) {
-          parts.of_cell[other] = part;
-          stack.push_back(other);
-        }
-    }
-  }
-  return parts;
-}
-
 /// Whether each part is kept: those of the seeds, or the largest.
-std::vector<bool> kept_parts(const SeaParts& parts, const std::vector<std::int32_t>& seeds) {
-  std::vector<bool> kept(parts.size.size());
+std::vector<bool> kept_parts(const Parts& parts, const std::vector<std::int32_t>& seeds) {
+  std::vector<bool> kept(parts.sizes.size());
   if (seeds.empty())
-    kept[static_cast<std::size_t>(std::max_element(parts.size.begin(), parts.size.end()) -
-                                  parts.size.begin())] = true;
+    kept[static_cast<std::size_t>(std::max_element(parts.sizes.begin(), parts.sizes.end()) -
+                                  parts.sizes.begin())] = true;
   for (std::size_t k = 0; k < seeds.size(); ++k) {
     const std::int32_t part = parts.of_cell[seeds[k]];
     require(part >= 0, "seed {} is on land, in cell {}; give a place in the sea", k, seeds[k]);
@@ -132,7 +103,7 @@ std::vector<bool> kept_parts(const SeaParts& parts, const std::vector<std::int32
 }
 
 /// One of the cells that the rows of a part, grown inwards from its outer cells, reach last.
-std::int32_t middle_of(const IdLists& cells_on_cell, const SeaParts& parts, std::int32_t part) {
+std::int32_t middle_of(const IdLists& cells_on_cell, const Parts& parts, std::int32_t part) {
   std::vector<char> seen(static_cast<std::size_t>(parts.of_cell.size()));
   std::vector<std::int32_t> row;
   const auto is_inside = [&](std::int32_t cell) {
@@ -158,13 +129,13 @@ std::int32_t middle_of(const IdLists& cells_on_cell, const SeaParts& parts, std:
 }
 
 /// The largest parts that are not kept, largest first.
-std::vector<SeaPart> find_severed(const IdLists& cells_on_cell, const SeaParts& parts,
+std::vector<SeaPart> find_severed(const IdLists& cells_on_cell, const Parts& parts,
                                   const std::vector<bool>& kept) {
   std::vector<std::int32_t> severed;
-  for (std::int32_t part = 0; part < std::ssize(parts.size); ++part)
+  for (std::int32_t part = 0; part < std::ssize(parts.sizes); ++part)
     if (!kept[static_cast<std::size_t>(part)])
       severed.push_back(part);
-  const auto size = [&](std::int32_t part) { return parts.size[static_cast<std::size_t>(part)]; };
+  const auto size = [&](std::int32_t part) { return parts.sizes[static_cast<std::size_t>(part)]; };
   std::stable_sort(severed.begin(), severed.end(),
                    [&](std::int32_t a, std::int32_t b) { return size(a) > size(b); });
   severed.resize(std::min(severed.size(), max_severed_parts));
@@ -189,12 +160,13 @@ SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>
   counts.locked = lock(cells_on_cell, options, of_cell);
   if (options.fill && counts.locked > 0)
     counts.filled += fill(cells_on_cell, of_cell);
-  const SeaParts parts = find_parts(cells_on_cell, of_cell);
-  require(!parts.size.empty(),
+  const Parts parts =
+      find_parts(cells_on_cell, [&](std::int32_t cell) { return of_cell[cell] == sea; });
+  require(!parts.sizes.empty(),
           "no cell is sea; check the polygons, the values of the raster, or the bounds of the "
           "field");
   const std::vector<bool> kept = kept_parts(parts, options.seeds);
-  counts.parts = std::ssize(parts.size);
+  counts.parts = std::ssize(parts.sizes);
   counts.severed_parts = find_severed(cells_on_cell, parts, kept);
   for (std::int64_t i = 0; i < of_cell.size(); ++i)
     if (of_cell[i] == sea && !kept[static_cast<std::size_t>(parts.of_cell[i])]) {
