@@ -12,6 +12,7 @@
 #include <calotte/export.h>       // what a shared library exports
 #include <calotte/field_grid.h>   // interpolation between files
 #include <calotte/gates.h>        // the demands of models on grids
+#include <calotte/generalise.h>   // the sea at the widths of a grid
 #include <calotte/generators.h>   // points to start from, longitudes and latitudes
 #include <calotte/grid.h>         // grids by recipes: plan() and make_grid()
 #include <calotte/limited_area.h> // grids of limited areas

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "oceans/room.h"
+
+#include <calotte/surface.h>
+
+#include <vector>
+
+namespace calotte::oceans_detail {
+
+/// A closed ring of points that are near each other. Lengths are radians.
+struct FineRing {
+  std::vector<Vec3> points;
+  std::vector<double> widths;  ///< of a grid, by point
+  std::vector<double> reaches; ///< how far a point may move
+};
+
+/// Rings at the widths of a grid: with corners among the points of fine rings, about a width apart,
+/// and where a ring bends half a width. A corner stands on the coast, at its nearest point, where
+/// that is within reach. Corners leave the coast, and then are added, where arcs meet.
+/// \param rings that do not meet, each of three points or more.
+/// \param coast its arcs, not empty.
+Surface::Rings fitted_rings(const std::vector<FineRing>& rings, const std::vector<Arc>& coast);
+
+} // namespace calotte::oceans_detail
