@@ -34,3 +34,4 @@
 #include <calotte/widths.h>       // cell widths as rules and rasters
 #include <calotte/write.h>        // meshes written, for models
 #include <calotte/write_grid.h>   // grids in formats of their cells
+#include <calotte/write_region.h> // regions

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/export.h>
+#include <calotte/surface.h>
+
+#include <string>
+
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// Writes a region of the sphere to GeoJSON (.geojson, .json), which read_region() reads: a polygon
+/// of all its rings in longitudes and latitudes, and a point inside by the property "inside". The
+/// file is complete or absent, as with write().
+/// \param region a part of the sphere with rings.
+/// \throws Error invalid_argument for another surface, and for another suffix; file.
+void write_region(const std::string& path, const Surface& region);
+
+} // namespace calotte
+CALOTTE_API_END
