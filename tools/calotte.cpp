@@ -69,6 +69,7 @@ void run(CLI::App& app, int argc, char** argv) {
   add_convert(app);
   add_cut(app);
   add_cull(app);
+  add_coast(app);
   add_refine(app);
   add_coarsen(app);
   add_interpolate(app);

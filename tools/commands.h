@@ -20,6 +20,7 @@ void add_view(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_cut(CLI::App& app);
 void add_cull(CLI::App& app);
+void add_coast(CLI::App& app);
 void add_refine(CLI::App& app);
 void add_coarsen(CLI::App& app);
 void add_interpolate(CLI::App& app);

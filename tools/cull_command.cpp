@@ -7,6 +7,7 @@
 #include "options/global_option.h"
 #include "options/model_option.h"
 #include "options/numbers.h"
+#include "options/ocean_options.h"
 #include "run/interruption.h"
 #include "run/progress.h"
 #include "text/text.h"
@@ -23,7 +24,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -92,26 +92,6 @@ void require_request(const CullRequest& request) {
   throw error;
 }
 
-std::vector<Points3> read_all_lines(const std::vector<std::string>& files) {
-  std::vector<Points3> all;
-  for (const std::string& file : files) {
-    const std::vector<Points3> lines = read_lines(file);
-    all.insert(all.end(), lines.begin(), lines.end());
-  }
-  return all;
-}
-
-/// The points of words LON,LAT.
-Points3 points_of(const std::vector<std::string>& words) {
-  if (words.empty())
-    return {};
-  std::string lines;
-  for (const std::string& word : words)
-    lines += word + "\n";
-  std::istringstream in(lines);
-  return read_points(in, "--seed", Columns::lonlat);
-}
-
 /// The dimensions that the model needs besides the mesh's.
 std::vector<FieldDimension> dimensions_of(const CullRequest& request) {
   const ModelNeeds* const model = model_of(request.model);
@@ -134,7 +114,7 @@ CullOptions options_of(const CullRequest& request) {
   options.fill = !request.no_fill;
   options.sea_ice_latitude = request.sea_ice_latitude;
   options.land_path = request.land_mesh;
-  options.seeds = points_of(request.seeds);
+  options.seeds = read_seeds(request.seeds);
   options.mask_path = request.mask;
   options.cell_map_folder = request.cell_map;
   if (const ModelNeeds* const model = model_of(request.model)) {

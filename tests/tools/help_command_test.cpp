@@ -13,10 +13,10 @@ using namespace calotte::test;
 
 namespace {
 
-const std::vector<std::string> commands{"delaunay", "cvt",    "plan",    "points",      "check",
-                                        "info",     "draw",   "view",    "convert",     "cut",
-                                        "cull",     "refine", "coarsen", "interpolate", "partition",
-                                        "jigsaw",   "marche", "version"};
+const std::vector<std::string> commands{"delaunay",  "cvt",    "plan",   "points",  "check",
+                                        "info",      "draw",   "view",   "convert", "cut",
+                                        "cull",      "coast",  "refine", "coarsen", "interpolate",
+                                        "partition", "jigsaw", "marche", "version"};
 
 /// The text of a help, checked to succeed.
 std::string help_text(const Bench& bench, const std::string& arguments) {
@@ -127,11 +127,11 @@ TEST_CASE("help knows the words of modellers, and names options, topics and page
   std::string all;
   for (const char* options :
        {"delaunay", "cvt", "plan", "points", "check", "info", "draw", "view", "convert", "cut",
-        "cull", "refine", "coarsen", "interpolate", "partition"})
+        "cull", "coast", "refine", "coarsen", "interpolate", "partition"})
     all += help_text(bench, std::string(options) + " --help-all");
   const std::filesystem::path pages = CALOTTE_FIXTURES "/../../tools/manual";
   for (const std::string word :
-       {"ocean",    "coast",      "limited area", "regional",  "mpas",       "fesom",
+       {"ocean",    "coastline",  "limited area", "regional",  "mpas",       "fesom",
         "models",   "gradient",   "units",        "straits",   "bathymetry", "raster",
         "python",   "install",    "threads",      "resume",    "shapefile",  "examples",
         "sea",      "islands",    "lake",         "land_mask", "resolution", "spacing",

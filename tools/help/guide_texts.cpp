@@ -14,7 +14,7 @@ constexpr const char* ocean = R"(An ocean grid: make a grid of the Earth, then l
 islands and lakes out. cull prints the largest seas that are not connected: --passage opens
 straits to them, --barrier closes land, --seed LON,LAT keeps a sea. --topography writes the sea
 floor, --land-mesh the other cells; --sea-ice-latitude 43 lets ice move. Widths by the distance from
-a coast: calotte help widths.
+a coast: calotte help widths. The region of a sea that ends at its coast: calotte coast.
 )";
 
 constexpr const char* straits = R"(Straits stay open, and land stays closed, by lines of GeoJSON.
@@ -320,7 +320,7 @@ MPAS-Ocean's files are in metres, MPAS-Atmosphere's on the unit sphere: --for ch
 
 const std::vector<Guide>& guides() {
   static const std::vector<Guide> all{
-      {"ocean sea land coast coastline shore coastal mask land-mask marine culling island lake "
+      {"ocean sea land coastline shore coastal mask land-mask marine culling island lake "
        "gshhg "
        "mpas-ocean mpaso mpas-o",
        ocean, "oceans.md"},
