@@ -68,7 +68,7 @@ std::string stranded_passages(const GeneralisedSea& sea, const std::vector<Point
     positions.push_back(position_words(line.col(line.cols() / 2)));
   }
   return positions.empty() ? ""
-                           : message("{} without sea at an end, without effect: {}\n",
+                           : message("{} that no sea of the region reaches, without effect: {}\n",
                                      counted(std::ssize(positions), "passage"), listed(positions));
 }
 
@@ -141,7 +141,8 @@ void add_coast(CLI::App& app) {
   command
       ->add_option("--passage", request->passages,
                    "GeoJSON lines along which the sea is a cell wide at least, also over land, "
-                   "such as straits. May be repeated.")
+                   "such as straits, and on from their ends to where it is as wide. May be "
+                   "repeated.")
       ->type_name("FILE");
   command
       ->add_option("--seed", request->seeds,

@@ -21,8 +21,9 @@ struct GeneraliseOptions {
   /// Islands and lakes of fewer cells, by the width at their first corner, do not count; from 0.25
   /// on. Default 1.
   double least_island = 1;
-  /// Lines along which the sea is a cell wide at least, also over land, such as straits. Each 3 x
-  /// points, directions, joined by arcs shorter than a half circle. Default: none.
+  /// Lines along which the sea is a cell wide at least, also over land, such as straits, and from
+  /// their ends on to where the sea is as wide. Each 3 x points, directions, joined by arcs shorter
+  /// than a half circle. Default: none.
   std::vector<Points3> passages = {};
   /// The sea is what is connected with one of these directions. Default: none, the largest part.
   Points3 seeds = {};
@@ -40,8 +41,8 @@ struct GeneralisedSea {
   std::int64_t islands = 0;          ///< left out, of the coast's closed lines
   std::int64_t lakes = 0;            ///< left out in the same way
   std::vector<ClosedSea> parts = {}; ///< as wide as a cell, without a seed; largest first
-  /// Between the sea and another part of it, or one that is left out; narrower than a cell and
-  /// wider than a third of one. Largest first.
+  /// Between the sea and another part of it, or one that is left out, narrower than a cell; largest
+  /// first. Those narrower than a third of a cell may be missing.
   std::vector<ClosedSea> straits = {};
   std::vector<std::int64_t> stranded_passages = {}; ///< without effect, as they reach no sea
   double land_to_sea = 0;                           ///< steradians, by squares and lost islands

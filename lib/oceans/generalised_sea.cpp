@@ -8,6 +8,7 @@
 #include "oceans/level_rings.h"
 #include "oceans/openings.h"
 #include "oceans/parts.h"
+#include "oceans/passages.h"
 #include "oceans/shore_points.h"
 #include "oceans/small_land.h"
 
@@ -254,12 +255,15 @@ GeneralisedSea generalised_sea(const Coast& coast, const Widths& widths,
                                const GeneraliseOptions& options) {
   require_options(widths, options);
   const LargeCoast large = without_small_cells(coast, widths, options.least_island);
-  const ShoreMesh shore(large.coast, widths, options.passages);
+  ShoreMesh shore(large.coast, widths, options.passages);
+  const std::vector<Points3> lines = continued_passages(shore, options.passages);
+  if (!lines.empty())
+    shore.at.from_passage = near_distances_at(LineDistance(lines, {}), shore.at);
   const Parts open =
       find_parts(shore.neighbours, [&](std::int32_t site) { return shore.is_open(site); });
   const std::vector<bool> kept = seeded_parts(shore, open, options.seeds);
   const auto in_sea = [&](std::int64_t site) { return is_kept(open, kept, site); };
-  const Passages passages = connected_passages(shore, options.passages, in_sea);
+  const Passages passages = connected_passages(shore, lines, in_sea);
 
   const std::vector<double> inside = from_core(shore, in_sea);
   const std::vector<double> from_passage =

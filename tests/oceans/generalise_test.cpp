@@ -102,6 +102,14 @@ TEST_CASE("straits as wide as a cell stay, and narrower ones close unless a pass
   CHECK(passed.stranded_passages == std::vector<std::int64_t>{1});
   CHECK(!is_sea(passed, -15, 0));
 
+  // A line that ends within the strait goes on, to both sides.
+  options.passages = {directions({{14, 0}, {16, 0}})};
+  const GeneralisedSea continued = at_width(continent_with_bay(0.32), options);
+  CHECK(is_sea(continued, 0, 0));
+  CHECK(continued.stranded_passages.empty());
+  for (const double longitude : {11, 13, 15, 17, 19})
+    CHECK(is_sea(continued, longitude, 0));
+
   options.passages.clear();
   options.seeds = direction(0, 0);
   const GeneralisedSea bay = at_width(continent_with_bay(0.32), options);
