@@ -360,7 +360,7 @@ static void runs(void) {
   recipe.start_points = a.points;
   recipe.start_count = a.sites;
   succeeds(calotte_make_grid(&recipe, stop, NULL, &again, &report, &error), "an early end");
-  expect(report.iterations == 3 && !report.converged, "its report");
+  expect(report.iterations >= 3 && report.iterations < 9 && !report.converged, "its report");
   calotte_mesh_free(again);
   again = NULL;
   recipe.density = cancels;
