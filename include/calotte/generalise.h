@@ -48,8 +48,9 @@ struct GeneralisedSea {
   double land_to_sea = 0;                           ///< steradians, by squares and lost islands
   double sea_to_land = 0;                           ///< steradians, by squares
   /// The largest distance of the rings from the coast in local widths, away from passages, at ends
-  /// and thirds of their arcs, and the one that 95% of these points keep within.
-  double displacement = 0, usual_displacement = 0;
+  /// and thirds of their arcs.
+  double displacement = 0;
+  double usual_displacement = 0; ///< the distance that 95% of these points keep within
 };
 
 /// The sea of a coast at the widths of a grid. With the local width w, the sea keeps the points
