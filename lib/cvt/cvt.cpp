@@ -13,7 +13,6 @@
 #include "cvt/levels.h"
 #include "cvt/stages.h"
 #include "cvt/state.h"
-#include "density/hexagons.h"
 #include "density/surface_density.h"
 #include "domain/arcs.h"
 #include "domain/surface.h"
@@ -222,10 +221,9 @@ void measure_moves(State& state, const Recipe& recipe, const Density& density) {
     if (!(move > 0))
       continue;
     ++state.report.moved_on_lines;
-    const double spacing = state.polish.demanded_spacing /
-                           std::sqrt(std::sqrt(evaluate(density, recipe.fixed.col(id))[0]));
-    state.report.farthest_move = std::max(state.report.farthest_move,
-                                          move / density_detail::hexagon_width(spacing * spacing));
+    const double width = state.polish.demanded_spacing /
+                         std::sqrt(std::sqrt(evaluate(density, recipe.fixed.col(id))[0]));
+    state.report.farthest_move = std::max(state.report.farthest_move, move / width);
   }
 }
 

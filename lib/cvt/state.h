@@ -37,7 +37,7 @@ struct Cursor {
 /// The penalty that a polish minimises besides the energy.
 struct Polish {
   double penalty = 0;          ///< of shapes; 0 before a polish
-  double demanded_spacing = 1; ///< at rho = 1
+  double demanded_spacing = 1; ///< of neighbours at rho = 1
   bool descended = true;       ///< the descent before it converged
 };
 

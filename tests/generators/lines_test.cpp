@@ -197,8 +197,9 @@ TEST_CASE("lines: cells are within the limits where they meet [slow]") {
   CHECK(after.leftCols(schedule.line_ends) == before.leftCols(schedule.line_ends));
   const auto moves = (after - before).colwise().norm();
   CHECK((moves.array() > 0).count() == grid.report.moved_on_lines);
-  CHECK(moves.maxCoeff() == doctest::Approx(grid.report.farthest_move * width(5000)).epsilon(1e-3));
-  CHECK(grid.report.moved_on_lines > 0); // otherwise this tests nothing
+  const double farthest = grid.report.farthest_move * width(5000);
+  CHECK(std::abs(moves.maxCoeff() / farthest - 1) < 0.01); // the spacing follows from the energy
+  CHECK(grid.report.moved_on_lines > 0);                   // otherwise this tests nothing
   CHECK(grid.report.moved_on_lines < schedule.on_lines / 2);
   CHECK(grid.report.farthest_move < 0.5);
 }
