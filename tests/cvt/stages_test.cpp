@@ -187,7 +187,9 @@ TEST_CASE("stages: a density is evaluated at the sites only where cells are smal
 TEST_CASE("stages: threads and regions have no effect on insertion and finish") {
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(graded(2800, x8()), {.decomposition = {.regions = regions}});
+    Recipe recipe = graded(2800, x8());
+    recipe.stop.most_off_midpoint = 0.01;
+    return make_grid(recipe, {.decomposition = {.regions = regions}});
   };
   const Cvt one = with(1, 1);
   CHECK(one.report.converged);
