@@ -82,9 +82,8 @@ public:
 
   /// Polishes shapes in subdomains, see polish.h. Returns the number of subdomains; 0 if the points
   /// stay.
-  /// \param raised how often the penalty has been raised. Then generators at bad shapes may move
-  /// that
-  ///        are pinned on lines, from the third time on at the ends of these, too. From the second
+  /// \param raised how often the penalty has been raised. Then generators on lines that are at bad
+  ///        shapes may move, from the third time on those at ends of lines, too. From the second
   ///        time on dislocations are moved among them.
   virtual std::int64_t polish(Points3& points, int raised) = 0;
 

@@ -57,26 +57,30 @@ struct PenaltyPart {
 
   /// Adds the term of an angle, a ratio or a side, and returns its derivative by the excess.
   double add(double factor, double excess, const std::array<std::int32_t, 2>& of) {
-    terms.value += factor * excess * excess;
     if (excess > terms.worst) {
       terms.worst = excess;
       terms.worst_generator = of[0];
     }
     if (excess > accepted_excess)
       generators.insert(generators.end(), of.begin(), of.end());
-    return 2 * factor * excess;
+    return add_square(factor, excess);
   }
-  /// The same for midpoints.
+  /// The same for midpoints, which decide nothing.
   double add_off_midpoint(double factor, double excess) {
-    terms.value += factor * excess * excess;
     terms.off_midpoint += factor * excess * excess;
-    return 2 * factor * excess;
+    return add_square(factor, excess);
   }
   void add_shares(const Angle& angle, const Cotangent& cotangent, double slope) {
     const Vec3 a = slope * cotangent.derivative_a(), b = slope * cotangent.derivative_b();
     shares.push_back({angle.a, a});
     shares.push_back({angle.b, b});
     shares.push_back({angle.c, -1 * (a + b)});
+  }
+
+private:
+  double add_square(double factor, double excess) {
+    terms.value += factor * excess * excess;
+    return 2 * factor * excess;
   }
 };
 
