@@ -205,7 +205,7 @@ RawMesh read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice c
         read_lonlats(file, rows.longitude, rows.latitude,
                      std::vector<std::int64_t>(file.dimensions_of(rows.longitude).size(), -1));
   raw.polygons = read_cell_rows(file, rows, raw.points);
-  raw.corner_rounding = file.is_float(rows.corner_longitude) ? float_rounding : 0;
+  raw.corner_rounding = find_rounding(file, rows.corner_longitude);
   std::vector<std::string> dimensions = file.dimensions_of(rows.corner_longitude);
   dimensions.erase(rows.corners_first ? dimensions.begin() : std::prev(dimensions.end()));
   read_fields_on(file, dimensions,

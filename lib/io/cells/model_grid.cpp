@@ -210,4 +210,8 @@ Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
   return from_degrees(points.longitudes, points.latitudes);
 }
 
+double find_rounding(const NetcdfReader& file, const std::string& variable) {
+  return file.has_variable(variable) && file.is_float(variable) ? float_rounding : 0;
+}
+
 } // namespace calotte::io_detail

@@ -161,6 +161,9 @@ NetcdfWriter::Fill<std::int32_t> make_mask(const WriteOptions& options);
 /// Maximum rounding error of an angle up to 360 degrees in single precision, in radians.
 inline constexpr double float_rounding = 4e-7;
 
+/// That of a variable of angles or of unit vectors; 0 in double precision, and without it.
+double find_rounding(const NetcdfReader& file, const std::string& variable);
+
 /// Removes fields that a writer computes: areas of SCRIP and ESMF that are those of the polygons up
 /// to rounding, and masks that are 1 at all cells.
 void drop_derived_fields(RawMesh& raw);

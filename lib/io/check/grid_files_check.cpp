@@ -16,10 +16,6 @@
 namespace calotte::io_detail {
 namespace {
 
-double find_rounding(const NetcdfReader& file, const std::string& variable) {
-  return file.has_variable(variable) && file.is_float(variable) ? float_rounding : 0;
-}
-
 // ---- Attributes
 
 /// Checks that the names in an attribute of a variable are variables.

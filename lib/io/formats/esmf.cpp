@@ -146,7 +146,7 @@ RawMesh read_esmf(const NetcdfReader& file, FieldChoice choice) {
   RawMesh raw{.points = read_esmf_centres(file)};
   if (file.has_variable("elementConn")) {
     raw.polygons = read_esmf_cells(file, raw.points);
-    raw.corner_rounding = file.is_float("nodeCoords") ? float_rounding : 0;
+    raw.corner_rounding = find_rounding(file, "nodeCoords");
   } else if (raw.points.cols() == 0) {
     file.fail("it has neither centerCoords, the cells' sites, nor elementConn, their corners; give "
               "a file that has");

@@ -95,7 +95,7 @@ RawMesh read_scrip(const NetcdfReader& file, FieldChoice choice) {
     raw.points = read_lonlats(file, "grid_center_lon", "grid_center_lat");
   if (file.has_variable("grid_corner_lon")) {
     raw.polygons = read_scrip_cells(file, raw.points);
-    raw.corner_rounding = file.is_float("grid_corner_lon") ? float_rounding : 0;
+    raw.corner_rounding = find_rounding(file, "grid_corner_lon");
   }
   read_fields(file, scrip_names(), choice, raw);
   drop_derived_fields(raw);

@@ -269,7 +269,7 @@ RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
                 topology.mesh);
     raw.polygons = make_polygons(faces, read_pairs(file, topology, topology.nodes), raw.points,
                                  topology.planar);
-    raw.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
+    raw.corner_rounding = find_rounding(file, topology.nodes[0]);
   }
   read_fields(file, list_mesh_names(file, topology, sites_are_nodes), choice, raw);
   drop_derived_fields(raw);

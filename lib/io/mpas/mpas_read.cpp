@@ -78,11 +78,6 @@ CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells)
   return complete;
 }
 
-/// The rounding of positions, radians.
-double find_rounding(const NetcdfReader& file) {
-  return file.is_float(mpas_cell.axis(0)) ? float_rounding : 0;
-}
-
 /// Whether each vertex is the circumcentre of its cells: within a millionth of the mean cell width,
 /// or of the distance of the circumcentre from the cells, whichever is larger.
 bool are_cell_corners(const Points3& sites, const Triangles& triangles, const Points3& vertices,
@@ -244,7 +239,7 @@ RawMesh read_sphere(const NetcdfReader& file, FieldChoice choice) {
   if (has_polygons(file)) {
     const Points3 vertices = read_coordinates(file, mpas_vertex);
     require_directions(file.path() + ": of the vertices", vertices);
-    raw.corner_rounding = find_rounding(file);
+    raw.corner_rounding = find_rounding(file, mpas_cell.axis(0));
     if (!complete.all ||
         !are_cell_corners(raw.points, complete.triangles, vertices, raw.corner_rounding))
       raw.polygons = read_polygons(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));
