@@ -223,6 +223,10 @@ TEST_CASE("check --for names the demands that fail, and where") {
   CHECK(has(bench.run("check good.nc --for mpas-sw").err,
             "edge k of its cells lies between vertices k and k + 1, instead of k - 1 and k; "
             "calotte convert FILE NEW --for mpas-sw"));
+  check_success(bench, "cvt --cells 642 -o planet.nc --sphere-radius earth");
+  CHECK(has(
+      bench.run("check planet.nc --for mpas-atmosphere").err,
+      "its radius is 6371229, instead of 1 and edge k ")); // init_atmosphere would scale it again
   CHECK(bench.run("check random.nc").code == 0);
   check_success(bench, "info random.nc --for mpas-sw --report report.json");
   CHECK(has(bench.file("report.json"), "\"beyond\""));

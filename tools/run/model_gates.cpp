@@ -10,7 +10,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <utility>
@@ -60,25 +59,21 @@ bool has_demanded_cells(const MeshFile& file) {
 }
 
 std::string unsuited(const ModelNeeds& model, const MeshFile& file) {
-  // What a model has made of its grid has the planet's radius, perhaps in single precision.
-  const bool is_made =
-      std::abs(file.sphere_radius - model.planet_radius) < 1e-6 * model.planet_radius;
-  const double radius = is_made ? model.sphere_radius : file.sphere_radius;
   if (file.format != "MPAS" ||
-      suits(model, model.format, radius, file.vertex_order, model.dimensions))
+      suits(model, model.format, file.sphere_radius, file.vertex_order, model.dimensions))
     return "";
   const auto edge = [](VertexOrder order) {
     return order == VertexOrder::before_edges ? "k and k + 1" : "k - 1 and k";
   };
-  const std::string order =
-      file.vertex_order == model.vertex_order
-          ? ""
-          : message("edge k of its cells lies between vertices {}, instead of {}",
-                    edge(file.vertex_order), edge(model.vertex_order));
-  const std::string length = message("its radius is {}, instead of {}",
-                                     shortest(file.sphere_radius), shortest(model.sphere_radius));
+  std::vector<std::string> differences;
+  if (!suits(model, model.format, file.sphere_radius, model.vertex_order, model.dimensions))
+    differences.push_back(message("its radius is {}, instead of {}", shortest(file.sphere_radius),
+                                  shortest(model.sphere_radius)));
+  if (file.vertex_order != model.vertex_order)
+    differences.push_back(message("edge k of its cells lies between vertices {}, instead of {}",
+                                  edge(file.vertex_order), edge(model.vertex_order)));
   return message("the file is not one for {}: {}; calotte convert FILE NEW --for {}", model.name,
-                 order.empty() ? length : order, model.word);
+                 listed(differences, " and "), model.word);
 }
 
 std::string no_demanded_cells(const ModelNeeds& model) {
