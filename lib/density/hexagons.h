@@ -14,4 +14,7 @@ inline constexpr double hexagon_energy = 5 / (18 * std::numbers::sqrt3);
 /// The distance of the centres of hexagons of that area.
 inline double hexagon_width(double area) { return std::sqrt(2 / std::numbers::sqrt3 * area); }
 
+/// The area of hexagons whose centres are at that distance.
+inline double hexagon_area(double width) { return std::numbers::sqrt3 / 2 * width * width; }
+
 } // namespace calotte::density_detail

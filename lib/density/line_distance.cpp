@@ -152,4 +152,19 @@ void LineDistance::operator()(std::span<const Vec3> points, std::span<double> di
   }
 }
 
+Vec3 LineDistance::nearest(const Vec3& point) const {
+  double square = std::numeric_limits<double>::infinity();
+  std::int32_t nearest = 0;
+  tree_.visit_nearest(
+      [&](const Box3& box) { return curve_detail::square_from(box, point); }, square,
+      [&](std::int32_t k) {
+        const double other = domain_detail::square_from(arcs_[static_cast<std::size_t>(k)], point);
+        if (other < square) {
+          square = other;
+          nearest = k;
+        }
+      });
+  return domain_detail::nearest_on(arcs_[static_cast<std::size_t>(nearest)], point);
+}
+
 } // namespace calotte::density_detail

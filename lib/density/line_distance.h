@@ -36,6 +36,9 @@ public:
     return distance;
   }
 
+  /// The nearest point of the lines to a unit vector, on the sphere.
+  Vec3 nearest(const Vec3& point) const;
+
 private:
   bool sphere_;
   std::vector<Arc> arcs_; ///< or straight lines; of a point both ends are the same

@@ -126,13 +126,13 @@ Raster sample(const Widths& widths, const Surface& surface, double step) {
                              : sample_in_plane(widths, surface, step);
 }
 
-namespace {
-
-[[noreturn]] void refuse_point(double x, double y, bool of_plane) {
+void refuse_point(double x, double y, bool of_plane) {
   refuse(message("no rule gives a width at {} {}, {} {}; "
                  "add one that holds everywhere, such as a number",
                  of_plane ? "x" : "longitude", x, of_plane ? "y" : "latitude", y));
 }
+
+namespace {
 
 /// Gives nodes outside a surface without a demand the largest width of the others.
 /// \param for_each_node calls body(x, y, width) for nodes in a fixed order, degrees on the sphere.

@@ -128,6 +128,9 @@ std::shared_ptr<const SharesOfRadius> share_of_sides(const std::vector<Points3>&
                                                      const ProfileCurve& curve,
                                                      const Surface& surface = {});
 
+/// Refuses a point at which no rule gives a width. \param x, y degrees, or in a plane its unit.
+[[noreturn]] void refuse_point(double x, double y, bool of_plane);
+
 /// A rule that interpolates the values of a raster; no demand next to a node without one.
 std::shared_ptr<const WidthRule> rule_of_field(const Raster& raster);
 

@@ -40,6 +40,15 @@ Box3 box_of(const Arc& arc) {
   return {ends.low - margin, ends.high + margin};
 }
 
+Vec3 nearest_on(const Arc& arc, const Vec3& p) {
+  const Vec3 across = cross(arc.from + arc.to, arc.to - arc.from), // without cancellation
+      normal = (1 / norm(across)) * across;                        // not a number for a point
+  if (dot(cross(normal, arc.from), p) > 0 && dot(cross(arc.to, normal), p) > 0)
+    return normalised(p - dot(normal, p) * normal);
+  const Vec3 a = p - arc.from, b = p - arc.to;
+  return dot(a, a) <= dot(b, b) ? arc.from : arc.to;
+}
+
 double square_from(const Arc& arc, const Vec3& p) {
   double least = 4;
   for_each_part(

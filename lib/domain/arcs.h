@@ -93,6 +93,10 @@ Box3 box_of(const Arc& arc);
 /// The square of the chord between a unit vector and the nearest point of an arc; rounded.
 double square_from(const Arc& arc, const Vec3& p);
 
+/// The point of an arc of at most a quarter turn, or of an arc that is a point, nearest to a unit
+/// vector; rounded.
+Vec3 nearest_on(const Arc& arc, const Vec3& p);
+
 /// An arc of at most a quarter turn, or a point, prepared for the distances of many unit vectors.
 class ArcDistance {
 public:

@@ -104,6 +104,13 @@ bool inside_is_land(const SideCells& cells, const std::vector<SideCells::Corner>
   return 2 * left > all;
 }
 
+std::vector<Arc> without_lines(const std::vector<CoastArc>& arcs) {
+  std::vector<Arc> result;
+  for (const CoastArc& each : arcs)
+    result.push_back(each.arc);
+  return result;
+}
+
 /// Refuses a coast that repeats many of its arcs: areas of land that it contains twice would have
 /// no defined sides. Cuts of a coast may repeat some arcs.
 const std::vector<CoastArc>& require_distinct(const std::vector<CoastArc>& arcs) {
@@ -126,13 +133,6 @@ const std::vector<CoastArc>& require_distinct(const std::vector<CoastArc>& arcs)
 }
 
 } // namespace
-
-std::vector<Arc> without_lines(const std::vector<CoastArc>& arcs) {
-  std::vector<Arc> result;
-  for (const CoastArc& each : arcs)
-    result.push_back(each.arc);
-  return result;
-}
 
 CoastSides::CoastSides(const std::vector<CoastArc>& arcs)
     : cells_(without_lines(require_distinct(arcs)), corners_between(arcs).front()) {

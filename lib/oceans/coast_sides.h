@@ -28,9 +28,6 @@ struct CoastArc {
 ///         the one before.
 std::vector<CoastArc> coast_arcs(const Coast& coast);
 
-/// The arcs alone.
-std::vector<Arc> without_lines(const std::vector<CoastArc>& arcs);
-
 /// The sides of a coast, exact.
 class CoastSides {
 public:

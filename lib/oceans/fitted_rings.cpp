@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace calotte::oceans_detail {
@@ -15,61 +14,16 @@ namespace {
 
 using domain_detail::ArcTree, domain_detail::Rings;
 
-/// The arcs of a coast, prepared for the nearest points on them.
-class NearestOnCoast {
-public:
-  explicit NearestOnCoast(const std::vector<Arc>& arcs) : arcs_(short_parts(arcs)), tree_(arcs_) {}
-
-  Vec3 operator()(const Vec3& point) const {
-    double square = std::numeric_limits<double>::infinity();
-    std::int32_t nearest = 0;
-    tree_.visit_nearest(
-        [&](const curve_detail::Box3& box) { return curve_detail::square_from(box, point); },
-        square,
-        [&](std::int32_t k) {
-          const double other =
-              domain_detail::square_from(arcs_[static_cast<std::size_t>(k)], point);
-          if (other < square) {
-            square = other;
-            nearest = k;
-          }
-        });
-    return on_arc(arcs_[static_cast<std::size_t>(nearest)], point);
-  }
-
-private:
-  /// Boxes of long arcs contain many others.
-  static std::vector<Arc> short_parts(const std::vector<Arc>& arcs) {
-    constexpr double longest = 0.1;
-    std::vector<Arc> parts;
-    for (const Arc& arc : arcs)
-      domain_detail::for_each_short_part(arc, longest,
-                                         [&](const Arc& part) { parts.push_back(part); });
-    return parts;
-  }
-  static Vec3 on_arc(const Arc& arc, const Vec3& point) {
-    const Vec3 across = cross(arc.from + arc.to, arc.to - arc.from), // without cancellation
-        normal = (1 / norm(across)) * across;
-    if (dot(cross(normal, arc.from), point) > 0 && dot(cross(arc.to, normal), point) > 0)
-      return normalised(point - dot(normal, point) * normal);
-    const Vec3 a = point - arc.from, b = point - arc.to;
-    return dot(a, a) <= dot(b, b) ? arc.from : arc.to;
-  }
-
-  std::vector<Arc> arcs_;
-  ArcTree tree_;
-};
-
 /// A ring with the choice of its corners.
 class FittedRing {
 public:
-  FittedRing(const FineRing& ring, const NearestOnCoast& coast)
+  FittedRing(const FineRing& ring, const LineDistance& coast)
       : points_(ring.points), widths_(ring.widths), targets_(points_), is_corner_(points_.size()),
         on_coast_(points_.size()) {
     choose_corners();
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_corner_[i] != 0) {
-        targets_[i] = coast(points_[i]);
+        targets_[i] = coast.nearest(points_[i]);
         on_coast_[i] = norm(targets_[i] - points_[i]) <= ring.reaches[i];
       }
     spread_corners();
@@ -211,11 +165,10 @@ std::vector<std::int32_t> faults_of(const Rings& rings) {
 
 } // namespace
 
-Surface::Rings fitted_rings(const std::vector<FineRing>& fine, const std::vector<Arc>& coast) {
-  const NearestOnCoast nearest(coast);
+Surface::Rings fitted_rings(const std::vector<FineRing>& fine, const LineDistance& coast) {
   std::vector<FittedRing> rings;
   for (const FineRing& ring : fine)
-    rings.emplace_back(ring, nearest);
+    rings.emplace_back(ring, coast);
   FittedArcs all = arcs_of(rings);
   for (std::vector<std::int32_t> faults = faults_of(all.rings); !faults.empty();
        faults = faults_of(all.rings)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "density/line_distance.h"
 #include "oceans/room.h"
 
 #include <calotte/surface.h>
@@ -8,6 +9,8 @@
 #include <vector>
 
 namespace calotte::oceans_detail {
+
+using density_detail::LineDistance;
 
 /// A closed ring of points that are near each other. Lengths are radians.
 struct FineRing {
@@ -20,7 +23,6 @@ struct FineRing {
 /// and where a ring bends half a width. A corner stands on the coast, at its nearest point, where
 /// that is within reach. Corners leave the coast, and then are added, where arcs meet.
 /// \param rings that do not meet, each of three points or more.
-/// \param coast its arcs, not empty.
-Surface::Rings fitted_rings(const std::vector<FineRing>& rings, const std::vector<Arc>& coast);
+Surface::Rings fitted_rings(const std::vector<FineRing>& rings, const LineDistance& coast);
 
 } // namespace calotte::oceans_detail

@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/require.h"
+#include "density/hexagons.h"
 #include "domain/lines.h"
 #include "oceans/fitted_rings.h"
 #include "oceans/level_rings.h"
@@ -35,7 +36,7 @@ LargeCoast without_small_cells(const Coast& coast, const Widths& widths, double 
     set_column(firsts, static_cast<Eigen::Index>(k), lines[k].front().from);
   std::vector<double> least = demanded_at(widths, firsts);
   for (double& each : least)
-    each = least_cells / cells_in(1, each);
+    each = least_cells * density_detail::hexagon_area(each);
   LargeCoast large = large_lines(coast, lines, least);
   require(!large.coast.rings.empty() || large.lakes == 0,
           "no part of the sea is as wide as a cell; give smaller widths");
@@ -279,8 +280,8 @@ GeneralisedSea generalised_sea(const Coast& coast, const Widths& widths,
   result.stranded_passages = passages.stranded;
   result.land_to_sea = large.islands_area;
   result.sea_to_land = large.lakes_area;
-  result.sea = Surface::sphere().within(
-      fitted_rings(fine_rings(shore, values, from_passage), without_lines(shore.arcs)));
+  result.sea =
+      Surface::sphere().within(fitted_rings(fine_rings(shore, values, from_passage), shore.coast));
   std::vector<bool> severed(kept.size()); // passages without effect are no parts of the sea
   for (std::int64_t site = 0; site < shore.size(); ++site)
     if (open.of_cell[site] >= 0 && shore.core(site) >= 0 && !in_sea(site))

@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "oceans/openings.h"
 
+#include "density/hexagons.h"
 #include "oceans/level_rings.h"
 #include "oceans/parts.h"
 
 #include <calotte/delaunay.h>
 
 #include <algorithm>
-#include <numbers>
 
 namespace calotte::oceans_detail {
 
 ShoreMesh::ShoreMesh(const Coast& from, const Widths& widths, const std::vector<Points3>& lines)
-    : arcs(coast_arcs(from)), sides(arcs), coast(shores(from), {}) {
+    : sides(coast_arcs(from)), coast(shores(from), {}) {
   if (!lines.empty())
     passages.emplace(lines, Surface());
   at = shore_points(coast, sides, passages, widths);
   mesh = delaunay(at.points);
   neighbours = calotte::neighbours(mesh);
-}
-
-double cells_in(double area, double width) {
-  return area / (0.5 * std::numbers::sqrt3 * width * width);
 }
 
 namespace {
@@ -130,7 +126,7 @@ void remove_pieces(const ShoreMesh& shore, const SiteTest& is_kept, double least
   for (std::int64_t site = 0; site < shore.size(); ++site)
     if (land.of_cell[site] >= 0)
       cells[static_cast<std::size_t>(land.of_cell[site])] +=
-          cells_in(shore.area(site), shore.width(site));
+          shore.area(site) / density_detail::hexagon_area(shore.width(site));
   for (std::int64_t site = 0; site < shore.size(); ++site)
     if (land.of_cell[site] >= 0 &&
         cells[static_cast<std::size_t>(land.of_cell[site])] < least_cells)

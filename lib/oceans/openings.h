@@ -27,12 +27,8 @@ inline constexpr double margin = 1.0 / 6;
 /// The part of a width beyond which a point is too far from a core to belong to its opening.
 inline constexpr double beyond = 0.6;
 
-/// The number of cells of a width in an area, steradians.
-double cells_in(double area, double width);
-
 /// A coast and the mesh of the points around it.
 struct ShoreMesh {
-  std::vector<CoastArc> arcs;
   CoastSides sides;
   LineDistance coast;
   std::optional<LineDistance> passages; ///< if there are any

@@ -1,29 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "oceans/passages.h"
 
+#include <calotte/locate.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <unordered_map>
 #include <utility>
 
 namespace calotte::oceans_detail {
 namespace {
-
-std::int32_t nearest_site(const ShoreMesh& shore, const Vec3& point) {
-  std::int32_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t site = 0; site < shore.size(); ++site) {
-    const Vec3 apart = column(shore.at.points, site) - point;
-    if (const double square = dot(apart, apart); square < least) {
-      least = square;
-      nearest = site;
-    }
-  }
-  return nearest;
-}
 
 /// Whether a way from the end of a passage may pass through a site: in the sea or in a passage, but
 /// not along its own.
@@ -36,10 +24,10 @@ bool is_passable(const ShoreMesh& shore, const LineDistance& line, const Vec3& e
   return norm(point - end) <= half || line(point) > half;
 }
 
-/// The sites of the shortest way from the end of a passage to the core of the sea; none without a
-/// way.
+/// The sites of the shortest way from the end of a passage, whose nearest site is `start`, to the
+/// core of the sea; none without a way.
 std::vector<std::int32_t> way_to_core(const ShoreMesh& shore, const LineDistance& line,
-                                      const Vec3& end) {
+                                      const Vec3& end, std::int32_t start) {
   using Front = std::pair<double, std::int32_t>; // the length of a way, and its last site
   struct Reached {
     double length;
@@ -47,7 +35,6 @@ std::vector<std::int32_t> way_to_core(const ShoreMesh& shore, const LineDistance
   };
   std::unordered_map<std::int32_t, Reached> reached;
   std::priority_queue<Front, std::vector<Front>, std::greater<>> fronts;
-  const std::int32_t start = nearest_site(shore, end);
   reached[start] = {0, -1};
   for (fronts.emplace(0, start); !fronts.empty();) {
     const auto [length, site] = fronts.top();
@@ -78,21 +65,28 @@ std::vector<std::int32_t> way_to_core(const ShoreMesh& shore, const LineDistance
 } // namespace
 
 std::vector<Points3> continued_passages(const ShoreMesh& shore, const std::vector<Points3>& lines) {
+  Points3 ends(3, 2 * std::ssize(lines));
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    ends.middleCols<2>(2 * static_cast<Eigen::Index>(k)) << lines[k].leftCols<1>(),
+        lines[k].rightCols<1>();
+  const Ids starts = locate(shore.mesh, ends).nearest;
   std::vector<Points3> continued;
-  for (const Points3& line : lines) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const Points3& line = lines[k];
     const LineDistance distance({line}, {});
     const auto way = [&](Eigen::Index end) {
-      return way_to_core(shore, distance, normalised(column(line, end)));
+      return way_to_core(shore, distance, normalised(column(ends, end)), starts[end]);
     };
-    const std::vector<std::int32_t> before = way(0), after = way(line.cols() - 1);
+    const auto end = 2 * static_cast<Eigen::Index>(k);
+    const std::vector<std::int32_t> before = way(end), after = way(end + 1);
     Points3& all = continued.emplace_back(3, line.cols() + std::ssize(before) + std::ssize(after));
-    Eigen::Index k = 0;
+    Eigen::Index to = 0;
     for (auto site = before.rbegin(); site != before.rend(); ++site)
-      all.col(k++) = shore.at.points.col(*site);
+      all.col(to++) = shore.at.points.col(*site);
     for (const auto& point : line.colwise())
-      all.col(k++) = point;
+      all.col(to++) = point;
     for (const std::int32_t site : after)
-      all.col(k++) = shore.at.points.col(site);
+      all.col(to++) = shore.at.points.col(site);
   }
   return continued;
 }

@@ -3,6 +3,7 @@
 
 #include "base/lonlat.h"
 #include "curve/hilbert.h"
+#include "density/width_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,9 +95,7 @@ std::vector<double> demanded_at(const Widths& widths, const Points3& points) {
   for (Eigen::Index k = 0; k < km.size(); ++k) {
     if (!Widths::is_demand(km[k])) {
       const base_detail::LonLat at = base_detail::lonlat_of(column(points, k));
-      refuse(message("no rule gives a width at longitude {}, latitude {}; add one that does, such "
-                     "as a number",
-                     at.longitude, at.latitude));
+      density_detail::refuse_point(at.longitude, at.latitude, false);
     }
     radians[static_cast<std::size_t>(k)] = km[k] / widths.radius_km();
   }
