@@ -164,8 +164,7 @@ Points3 draw_from(EnvelopeOf<Map> envelope, std::int64_t n, std::uint64_t seed) 
     envelope.raise(above);
   }
   refuse("the density grows without bound, or from call to call: give one with a greatest value; "
-         "where it is that of cell widths, these jump: limit their gradient, by `gradient` of the "
-         "rule or by --gradient");
+         "where it is that of cell widths, these jump: limit their gradient");
 }
 
 } // namespace
