@@ -42,12 +42,20 @@ public:
     return on_coast_[point] != 0 ? targets_[point] : points_[point];
   }
 
+  double width(std::size_t point) const { return widths_[point]; }
+  std::size_t next_corner(std::size_t corner) const {
+    std::size_t next = after(corner);
+    while (is_corner_[next] == 0)
+      next = after(next);
+    return next;
+  }
+  void leave_coast(std::size_t corner) { on_coast_[corner] = 0; }
+
   /// Brings the arc from a corner to the next one nearer to the fine ring. \returns whether it was
   /// another.
   bool refine(std::size_t corner) {
-    std::size_t between = 0, next = after(corner);
-    for (; is_corner_[next] == 0; next = after(next))
-      ++between;
+    const std::size_t next = next_corner(corner),
+                      between = (next + points_.size() - corner - 1) % points_.size();
     if (on_coast_[corner] != 0 || on_coast_[next] != 0) {
       on_coast_[corner] = on_coast_[next] = 0;
       return true;
@@ -147,6 +155,31 @@ FittedArcs arcs_of(const std::vector<FittedRing>& rings) {
   return all;
 }
 
+/// Takes corners from the coast on both sides of land that is so narrow that the cells of a grid on
+/// one side would be neighbours of those on the other.
+void keep_necks(std::vector<FittedRing>& rings) {
+  constexpr double narrow = 1.0 / 3; // of widths
+  const FittedArcs all = arcs_of(rings);
+  const ArcTree tree(all.rings.arcs.items);
+  for (std::size_t k = 0; k < all.starts.size(); ++k) {
+    const auto [ring, corner] = all.starts[k];
+    const Vec3 at = all.rings.arcs.items[k].from;
+    const double reach = narrow * rings[ring].width(corner);
+    tree.visit([&](const curve_detail::Box3& box) { return square_from(box, at) < reach * reach; },
+               [&](std::int32_t other) {
+                 const Arc& arc = all.rings.arcs.items[static_cast<std::size_t>(other)];
+                 if (exact_detail::same_direction(arc.from, at) ||
+                     exact_detail::same_direction(arc.to, at) ||
+                     domain_detail::square_from(arc, at) >= reach * reach)
+                   return;
+                 const auto [beside, start] = all.starts[static_cast<std::size_t>(other)];
+                 rings[ring].leave_coast(corner);
+                 rings[beside].leave_coast(start);
+                 rings[beside].leave_coast(rings[beside].next_corner(start));
+               });
+  }
+}
+
 /// The arcs that have no length, or meet others, in increasing order.
 std::vector<std::int32_t> faults_of(const Rings& rings) {
   std::vector<std::int32_t> faults;
@@ -169,6 +202,7 @@ Surface::Rings fitted_rings(const std::vector<FineRing>& fine, const LineDistanc
   std::vector<FittedRing> rings;
   for (const FineRing& ring : fine)
     rings.emplace_back(ring, coast);
+  keep_necks(rings);
   FittedArcs all = arcs_of(rings);
   for (std::vector<std::int32_t> faults = faults_of(all.rings); !faults.empty();
        faults = faults_of(all.rings)) {

@@ -21,8 +21,9 @@ struct FineRing {
 
 /// Rings at the widths of a grid: with corners among the points of fine rings, about a width apart,
 /// and where a ring bends half a width. A corner stands on the coast, at its nearest point, where
-/// that is within reach. Corners leave the coast, and then are added, where arcs meet.
-/// \param rings that do not meet, each of three points or more.
+/// that is within reach. Corners leave the coast beside land narrower than a third of a width. They
+/// leave it, and then others are added, where arcs meet. \param rings that do not meet, each of
+/// three points or more.
 Surface::Rings fitted_rings(const std::vector<FineRing>& rings, const LineDistance& coast);
 
 } // namespace calotte::oceans_detail

@@ -159,7 +159,8 @@ TEST_CASE("narrow capes go, and narrow isthmuses and long islands stay") {
   const GeneralisedSea bridge = at_width({isthmus});
   CHECK(bridge.sea.rings().size() == 1);
   for (double longitude = 0; longitude <= 10; longitude += 0.5)
-    CHECK(!is_sea(bridge, longitude, 0));
+    for (const double latitude : {-0.18, 0.0, 0.18}) // a third of a width thick at least
+      CHECK(!is_sea(bridge, longitude, latitude));
   CHECK(is_sea(bridge, 5, 5));
   CHECK(is_sea(bridge, 5, -5));
 }
@@ -176,7 +177,9 @@ TEST_CASE("a thin ring of land keeps the sea within it apart") {
     const GeneralisedSea both = at_width(ring, options);
     CHECK(both.sea.rings().size() == 2);
     CHECK(both.parts.empty());
-    CHECK(!is_sea(both, 45, 90 - 10 + thickness / 2));
+    for (double longitude = 0; longitude < 360; longitude += 10)
+      for (const double beside : {-0.1, 0.0, 0.1})
+        CHECK(!is_sea(both, longitude, 90 - 10 + thickness / 2 + beside));
   }
 }
 
