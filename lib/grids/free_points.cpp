@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "cvt/darts.h"
 #include "delaunay/owners.h"
 #include "delaunay/sites.h"
 #include "density/hexagons.h"
@@ -23,11 +24,12 @@ namespace {
 
 using delaunay_detail::owners;
 
-/// Points that follow the density, and the points next to them.
-struct Candidates {
-  Points3 points;
-  Array<std::int32_t> nearest; ///< the nearest fixed generator
+/// Candidates that follow the density, and where they are among the fixed generators.
+struct Placed {
+  Candidates candidates;
+  Array<std::int32_t> nearest; ///< fixed generator
   DoubleVector distance;       ///< from that generator, over the demanded distance of neighbours
+  std::vector<double> fixed_width; ///< the demanded distance at each fixed generator
 };
 
 /// The input that depends on the surface.
@@ -64,11 +66,18 @@ struct Supply {
 
 /// Draws candidates. The mean of 1/density over points that follow the density is area / integral,
 /// which gives the spacing.
-Candidates candidates(const Supply& from, std::int64_t n, std::int64_t cells, std::uint64_t seed) {
-  Candidates out{from.draw(n, seed), Array<std::int32_t>(n), DoubleVector(n)};
-  const DoubleVector inverse = evaluate(from.sites, out.points, from.surface).cwiseInverse();
+Placed placed_candidates(const Supply& from, std::int64_t n, std::int64_t cells,
+                         std::uint64_t seed) {
+  Placed out{{from.draw(n, seed), DoubleVector(n), std::vector<std::uint64_t>(n)},
+             Array<std::int32_t>(n),
+             DoubleVector(n),
+             {}};
+  const DoubleVector inverse =
+      evaluate(from.sites, out.candidates.points, from.surface).cwiseInverse();
   const double scale = from.surface.area() / (inverse.mean() * static_cast<double>(cells));
-  const Sites sites = from.sorted(out.points);
+  for (const double density : evaluate(from.sites, from.fixed, from.surface))
+    out.fixed_width.push_back(density_detail::hexagon_width(scale / density));
+  const Sites sites = from.sorted(out.candidates.points);
   const std::vector<Vec3> centres = from.centres(sites);
   const Array<std::int32_t> owner = owners(sites.cells, sites.unit, centres);
   const double unit = sites.frame ? sites.frame->half / sites.frame->scale : 1;
@@ -79,8 +88,11 @@ Candidates candidates(const Supply& from, std::int64_t n, std::int64_t cells, st
     for (std::int64_t i = begin; i != end; ++i) {
       const std::int64_t r = rank[sites.site_of_input[static_cast<std::size_t>(i)]];
       const double apart = unit * norm(sites.unit[r] - centres[static_cast<std::size_t>(owner[r])]);
+      double& width = out.candidates.width[i];
+      width = density_detail::hexagon_width(scale * inverse[i]);
+      out.candidates.keys[static_cast<std::size_t>(i)] = static_cast<std::uint64_t>(r);
       out.nearest[i] = owner[r] % static_cast<std::int32_t>(from.fixed.cols());
-      out.distance[i] = apart / density_detail::hexagon_width(scale * inverse[i]);
+      out.distance[i] = apart / width;
     }
   });
   return out;
@@ -89,7 +101,7 @@ Candidates candidates(const Supply& from, std::int64_t n, std::int64_t cells, st
 /// Whether candidates are farther than some distance from the fixed generators, next to a gap. In a
 /// lattice of hexagons, no point is farther than 0.577 of the distance of neighbours from the
 /// nearest centre: beyond 0.65 there is a gap.
-std::vector<bool> have_room(const Candidates& in, std::int64_t fixed, double distance) {
+std::vector<bool> have_room(const Placed& in, std::int64_t fixed, double distance) {
   constexpr double gap = 0.65;
   std::vector<bool> next_to_gap(static_cast<std::size_t>(fixed), false);
   for (std::int64_t i = 0; i < in.nearest.size(); ++i)
@@ -109,25 +121,6 @@ std::int64_t candidates_for(std::int64_t cells) {
   return std::max(cells, std::min(most, for_each_cell * cells));
 }
 
-/// The columns of the selected candidates: those with room, in the order of the draw, then the
-/// farthest of the others. No generator starts in a pocket between fixed generators: it might be
-/// surplus there and could not leave. A descent moves others there if there is room.
-std::vector<std::int64_t> best(const Candidates& in, std::int64_t fixed, std::int64_t count) {
-  constexpr double beyond_pockets = 0.85;
-  const std::vector<bool> room = have_room(in, fixed, beyond_pockets);
-  std::vector<std::int64_t> order(room.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto others = std::stable_partition(order.begin(), order.end(), [&](std::int64_t i) {
-    return room[static_cast<std::size_t>(i)];
-  });
-  if (others - order.begin() < count)
-    std::stable_sort(others, order.end(), [&](std::int64_t i, std::int64_t j) {
-      return in.distance[i] > in.distance[j];
-    });
-  order.resize(static_cast<std::size_t>(count));
-  return order;
-}
-
 } // namespace
 
 Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed,
@@ -135,8 +128,12 @@ Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed
   const Supply from{fixed, surface, sites};
   if (fixed.cols() == 0 || count == 0)
     return from.draw(count, seed);
-  const Candidates in = candidates(from, candidates_for(cells), cells, seed);
-  return in.points(Eigen::all, best(in, fixed.cols(), count));
+  const Placed in = placed_candidates(from, candidates_for(cells), cells, seed);
+  Darts darts(in.candidates, surface);
+  for (Eigen::Index k = 0; k < fixed.cols(); ++k)
+    darts.put(surface.is_sphere() ? normalised(column(fixed, k)) : Vec3(column(fixed, k)),
+              in.fixed_width[static_cast<std::size_t>(k)]);
+  return in.candidates.points(Eigen::all, darts.take(count));
 }
 
 std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const Surface& surface,
@@ -145,7 +142,8 @@ std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const 
   base_detail::require_count(cells, 1, "the number of cells");
   if (fixed.cols() == 0)
     return cells;
-  const Candidates in = candidates(Supply{fixed, surface, sites}, candidates_for(cells), cells, 1);
+  const Placed in =
+      placed_candidates(Supply{fixed, surface, sites}, candidates_for(cells), cells, 1);
   const std::vector<bool> room = have_room(in, fixed.cols(), radius_of_hexagon);
   const double share = static_cast<double>(std::count(room.begin(), room.end(), true)) /
                        static_cast<double>(room.size());

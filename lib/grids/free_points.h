@@ -14,9 +14,7 @@
 /// as demanded stays there, in a cell far too small.
 namespace calotte::grids_detail {
 
-/// Random points that follow a density of sites where fixed generators leave it unmet. They are at
-/// least 0.85 of the demanded distance from each fixed generator, and near one whose neighbours
-/// leave a gap. Where such points do not suffice, those farthest from fixed generators are taken.
+/// Random points that follow a density of sites where fixed generators leave it unmet, see darts.h.
 /// \param count number of points; 0 or more.
 /// \param cells number of cells that the density demands on the surface, fixed ones included.
 /// \param fixed on the sphere of any norm; if there are none, the points are those of
