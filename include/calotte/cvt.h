@@ -49,7 +49,10 @@ enum class Boundary {
   /// a plane all triangles.
   clip,
   /// The fixed generators include some on the boundary, as boundary_points() gives them, and the
-  /// mesh ends there: it has the triangles whose centre of mass lies in the surface.
+  /// mesh ends there: its outer edges join each to the next one. The other edges are Delaunay as
+  /// far as these allow (a constrained Delaunay triangulation; Chew, Algorithmica 4, 1989), so that
+  /// no triangle crosses land narrower than a cell. A polish slides these generators along the
+  /// boundary, but not around corners of more than 60 degrees.
   generators,
 };
 
@@ -239,9 +242,10 @@ struct Schedule {
   std::vector<CvtAction> actions;                 ///< of the run, in order
   double implied_cells = 0;                       ///< by the widths; 0 without
   std::int64_t on_boundary = 0; ///< the last of the fixed generators, by Boundary::generators
-  std::int64_t on_lines = 0;    ///< fixed generators before those, by Recipe::lines
-  std::int64_t line_ends = 0;   ///< the first of those, see LinePoints::ends
-  double from_lines = 0;        ///< see LinePoints::farthest
+  std::vector<std::int64_t> ring_ends; ///< by ring of the boundary, how many of these up to its end
+  std::int64_t on_lines = 0;           ///< fixed generators before those, by Recipe::lines
+  std::int64_t line_ends = 0;          ///< the first of those, see LinePoints::ends
+  double from_lines = 0;               ///< see LinePoints::farthest
 };
 
 /// The executed part of an action.

@@ -137,14 +137,21 @@ template <Space S> double Cells<S>::spacing() const {
 template <Space S> bool Cells<S>::has_centre(const Vec3& a, const Vec3& b, const Vec3& c) const {
   if (outline_ == nullptr)
     return true;
+  const auto has = [&](const Vec3& x) { return side_of<S>(outline_, x) != Side::outside; };
+  if (boundary_ == Boundary::generators) {
+    constexpr double near = 0.8; // on the way to a corner: a triangle may lie across a narrow land
+    const Vec3 centre = (1.0 / 3) * (a + b + c);
+    const auto on_way = [&](const Vec3& corner) {
+      return has((1 - near) * centre + near * corner);
+    };
+    return has(centre) && on_way(a) && on_way(b) && on_way(c);
+  }
   if constexpr (S::on_sphere) {
-    const Vec3 centre = boundary_ == Boundary::clip ? cross(b - a, c - a) : a + b + c;
-    return outline_->side(centre) != Side::outside;
+    return has(cross(b - a, c - a));
   } else {
     const Vec3 u = offset(a, b), v = offset(a, c);
-    const Vec2 centre = boundary_ == Boundary::clip ? circumcentre({u.x, u.y}, {v.x, v.y})
-                                                    : Vec2{(u.x + v.x) / 3, (u.y + v.y) / 3};
-    return outline_->side({a.x + centre.x, a.y + centre.y}) != Side::outside;
+    const Vec2 centre = circumcentre({u.x, u.y}, {v.x, v.y});
+    return has({a.x + centre.x, a.y + centre.y, 0});
   }
 }
 

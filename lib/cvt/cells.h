@@ -9,6 +9,7 @@
 #include "cvt/room.h"
 #include "delaunay/regions.h"
 #include "delaunay/sites.h"
+#include "domain/along_boundary.h"
 #include "domain/surface.h"
 #include "integrals/integrand.h"
 #include "integrals/moments.h"
@@ -68,7 +69,7 @@ public:
   /// Whether the mesh has sites that are no generators.
   bool has_hull() const { return outline_ != nullptr; }
   /// Whether the surface has the circumcentre of a triangle of generators; with generators on the
-  /// boundary, its centre of mass.
+  /// boundary, its centre of mass and the ways from there to its corners.
   bool has_centre(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
   Sites sites() const; ///< of the generators; equal ones merged
@@ -113,6 +114,13 @@ public:
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const;
   /// Removes the components that are no motion of a generator.
   static void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part);
+  /// See along_boundary.h. \pre the surface is bounded.
+  Vec3 along_boundary(const Vec3& x, double reach) const {
+    return domain_detail::along_boundary<S>(*outline_, x, reach);
+  }
+  Vec3 slid_on_boundary(const Vec3& x, const Vec3& way, double reach) const {
+    return domain_detail::slid_on_boundary<S>(*outline_, x, way, reach);
+  }
   Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 
 private:

@@ -196,6 +196,9 @@ public:
 
   void penalise(const ShapePenalty& penalty) override { penalty_ = penalty; }
   void pin(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
+  void end_along(std::vector<std::int32_t> along) override {
+    tessellation_.end_along(std::move(along));
+  }
   std::int64_t glide(Points3& points, const ShapeLimits& limits) override {
     return cvt_detail::glide(tessellation_, points, local_input(), limits);
   }

@@ -77,6 +77,10 @@ public:
   /// \param fixed by generator, see shape.h; empty if none is pinned.
   virtual void pin(std::vector<std::uint8_t> fixed) = 0;
 
+  /// Sets the edges of the boundary at which the mesh ends. \param along by generator, see
+  /// positioned_mesh.h; or empty.
+  virtual void end_along(std::vector<std::int32_t> along) = 0;
+
   /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
   virtual std::int64_t glide(Points3& points, const ShapeLimits& limits) = 0;
 

@@ -82,9 +82,6 @@ template <Space S> Points3 pushed(const Subdomain<S>& part, const Brink& brink) 
   return to;
 }
 
-/// An edge by its sites in the mesh, the lower one first.
-using Ends = std::pair<std::int32_t, std::int32_t>;
-
 template <Space S> class Glide {
 public:
   Glide(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,

@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "cvt/cells.h"
+#include "cvt/repair.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 #include "mesh/faces.h"
@@ -60,6 +61,18 @@ std::int64_t drop_small_fans(const Triangles& triangles, std::int64_t points,
   return dropped;
 }
 
+/// The triangles to keep, but of those that meet at a site only in it the largest fan.
+Triangles without_small_fans(const Triangles& all, std::int64_t points,
+                             std::vector<std::uint8_t> keep) {
+  Triangles triangles = selected(all, keep);
+  keep.assign(static_cast<std::size_t>(triangles.cols()), 1);
+  while (drop_small_fans(triangles, points, keep) > 0) {
+    triangles = selected(triangles, keep);
+    keep.assign(static_cast<std::size_t>(triangles.cols()), 1);
+  }
+  return triangles;
+}
+
 Mesh make_mesh(Points3&& points, Triangles&& triangles, const Surface& surface) {
   Triangles neighbours = neighbours_of(triangles, points.cols());
   make_canonical(triangles, neighbours);
@@ -95,18 +108,85 @@ template <Space S> std::vector<std::uint8_t> with_centre(const Mesh& mesh, Bound
 
 } // namespace
 
+namespace {
+
+/// Flags the triangles on the surface. \param edges of the boundary, from the first site to the
+/// second with the surface to their left, which triangles to keep do not cross.
+std::vector<std::uint8_t> left_of(const std::vector<Ends>& edges, const Connectivity& mesh) {
+  std::vector<Ends> ways = edges;
+  std::sort(ways.begin(), ways.end());
+  const auto has = [&](std::int32_t from, std::int32_t to) {
+    return std::binary_search(ways.begin(), ways.end(), Ends{from, to});
+  };
+  std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()), 0);
+  std::vector<std::int32_t> row;
+  const auto take = [&](std::int32_t t) {
+    if (std::exchange(keep[static_cast<std::size_t>(t)], 1) == 0)
+      row.push_back(t);
+  };
+  const auto side = [&](std::int32_t t, int v) {
+    return Ends{mesh.triangles(next_vertex(v), t), mesh.triangles(previous_vertex(v), t)};
+  };
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      if (const auto [from, to] = side(t, v); has(from, to))
+        take(t);
+  while (!row.empty()) {
+    const std::int32_t t = row.back();
+    row.pop_back();
+    for (int v = 0; v < 3; ++v)
+      if (const auto [from, to] = side(t, v); !has(from, to) && mesh.neighbours(v, t) >= 0)
+        take(mesh.neighbours(v, t));
+  }
+  return keep;
+}
+
+template <Space S>
+Mesh mesh_to_boundary(const S&, Points3&& points, const Surface& surface,
+                      const BoundaryGenerators& boundary) {
+  std::vector<Ends> ways, edges;
+  std::int64_t begin = boundary.first;
+  for (const std::int64_t end_of_ring : boundary.ring_ends) {
+    const std::int64_t end = boundary.first + end_of_ring;
+    for (std::int64_t i = begin; i < end; ++i)
+      ways.emplace_back(i, i + 1 < end ? i + 1 : begin);
+    begin = end;
+  }
+  for (const auto& [from, to] : ways)
+    edges.push_back(std::minmax({from, to}));
+  std::sort(edges.begin(), edges.end());
+  Cells<S> cells(surface, Boundary::generators);
+  cells.move(points);
+  Connectivity mesh = cells.triangulate();
+  const bool whole = constrain(mesh, cells.positions(), edges) == 0;
+  std::vector<std::uint8_t> keep = left_of(ways, mesh);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    std::uint8_t& here = keep[static_cast<std::size_t>(t)];
+    const auto corners = mesh.triangles.col(t);
+    here = here != 0 && corners.maxCoeff() < points.cols() &&
+           (whole || cells.has_centre(column(points, corners[0]), column(points, corners[1]),
+                                      column(points, corners[2])));
+  }
+  return make_mesh(std::move(points), without_small_fans(mesh.triangles, points.cols(), keep),
+                   surface);
+}
+
+} // namespace
+
+Mesh mesh_to_boundary(Points3&& points, const Surface& surface,
+                      const BoundaryGenerators& boundary) {
+  return in_space_of(surface, [&](const Space auto& space) {
+    return mesh_to_boundary(space, std::move(points), surface, boundary);
+  });
+}
+
 Mesh inner_mesh(Mesh&& mesh, Boundary boundary) {
   const bool plane = !mesh.surface.is_sphere();
   if (!mesh.surface.is_bounded() || (plane && boundary == Boundary::clip))
     return std::move(mesh);
   std::vector<std::uint8_t> keep =
       plane ? with_centre<Plane>(mesh, boundary) : with_centre<Sphere>(mesh, boundary);
-  Triangles triangles = selected(mesh.triangles, keep);
-  keep.assign(static_cast<std::size_t>(triangles.cols()), 1);
-  while (drop_small_fans(triangles, mesh.points.cols(), keep) > 0) {
-    triangles = selected(triangles, keep);
-    keep.assign(static_cast<std::size_t>(triangles.cols()), 1);
-  }
+  Triangles triangles = without_small_fans(mesh.triangles, mesh.points.cols(), keep);
   std::vector<std::int32_t> sites = std::move(mesh.site_of_input);
   const Surface surface = mesh.surface;
   mesh = make_mesh(std::move(mesh.points), std::move(triangles), surface);

@@ -8,10 +8,14 @@
 #include "curve/hilbert.h"
 #include "curve/radix_sort.h"
 #include "cvt/cells.h"
+#include "cvt/darts.h"
 #include "cvt/inner_mesh.h"
+#include "cvt/stages.h"
 #include "delaunay/sites.h"
 #include "density/demanded_spacing.h"
+#include "density/hexagons.h"
 #include "domain/arcs.h"
+#include "domain/near_boundary.h"
 #include "domain/surface.h"
 #include "exact/space.h"
 #include "mesh/canonical_order.h"
@@ -24,6 +28,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <string>
@@ -193,14 +198,106 @@ Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<
   return points;
 }
 
+/// The widths of cells of the zone along a boundary of generators, where a bisection leaves too
+/// many points or too few: those of the boundary are as dense at all levels.
+constexpr double zone = 4, beside_zone = 5.5;
+
+/// Candidates in the zone: random points in triangles of a coarse mesh, in any order.
+/// \param width_at the width of cells at a point.
+template <Space S, class Width>
+Candidates candidates_in_zone(const Mesh& coarse, const OutlineOf<S>& outline,
+                              const Width& width_at) {
+  constexpr double for_each_cell = 20;
+  std::vector<std::vector<Vec3>> found(static_cast<std::size_t>(coarse.triangles.cols()));
+  for_each_block(coarse.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      const auto corner = [&](int v) { return column(coarse.points, coarse.triangles(v, t)); };
+      const Vec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
+      const Vec3 middle = a + (1.0 / 3) * (ab + ac);
+      const double width = width_at(middle), size = std::sqrt(std::max(dot(ab, ab), dot(ac, ac)));
+      if (!is_near_boundary(coarse.surface, middle, zone * width + size))
+        continue;
+      const double cells = norm(cross(ab, ac)) / 2 / hexagon_area(width);
+      SplitMix random(static_cast<std::uint64_t>(t));
+      for (auto left = std::ceil(for_each_cell * std::min(cells, 1e3)); left > 0; --left) {
+        double u = random.unit(), v = random.unit();
+        if (u + v > 1) {
+          u = 1 - u;
+          v = 1 - v;
+        }
+        Vec3 x = a + u * ab + v * ac;
+        if constexpr (S::on_sphere)
+          x = normalised(x);
+        if (is_near_boundary(coarse.surface, x, zone * width_at(x)) &&
+            side_of<S>(&outline, x) == Side::inside)
+          found[static_cast<std::size_t>(t)].push_back(x);
+      }
+    }
+  });
+  std::vector<Vec3> all;
+  for (const std::vector<Vec3>& some : found)
+    all.insert(all.end(), some.begin(), some.end());
+  std::vector<std::uint64_t> draw(all.size()), keys(all.size());
+  std::iota(keys.begin(), keys.end(), 0);
+  std::sort(keys.begin(), keys.end(), [](std::uint64_t i, std::uint64_t j) {
+    return std::pair(hash_with(1, i), i) < std::pair(hash_with(1, j), j);
+  });
+  const auto n = std::ssize(all);
+  Candidates out{Points3(3, n), DoubleVector(n), std::move(keys)};
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Vec3& x = all[out.keys[static_cast<std::size_t>(i)]];
+    set_column(out.points, i, x);
+    out.width[i] = width_at(x);
+  }
+  return out;
+}
+
+/// The points of a bisection outside the zone along the boundary, and others in it.
+/// \param points after a bisection, the fixed ones first.
+template <Space S>
+Points3 thrown_along_boundary(const State& state, const Mesh& coarse, const OutlineOf<S>& outline,
+                              const Points3& points, const DemandedSpacing& spacing,
+                              std::int64_t cells) {
+  const auto width_at = [&](const Vec3& x) {
+    const double h = spacing.at(x);
+    return hexagon_width(h * h);
+  };
+  const Candidates candidates = candidates_in_zone<S>(coarse, outline, width_at);
+  Darts darts(candidates, coarse.surface);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Vec3 x = S::on_sphere ? normalised(column(points, i)) : Vec3(column(points, i));
+    const double width = width_at(x);
+    if (i >= state.fixed && is_near_boundary(coarse.surface, x, zone * width))
+      continue;
+    kept.push_back(i);
+    if (i < state.fixed || is_near_boundary(coarse.surface, x, beside_zone * width))
+      darts.put(x, width);
+  }
+  const std::vector<std::int64_t> thrown =
+      darts.take(std::max<std::int64_t>(cells - std::ssize(kept), 0));
+  Points3 out(3, std::ssize(kept) + std::ssize(thrown));
+  out.leftCols(std::ssize(kept)) = points(Eigen::all, kept);
+  out.rightCols(std::ssize(thrown)) = candidates.points(Eigen::all, thrown);
+  return out;
+}
+
 Points3 bisected_points(const State& state, const Mesh& coarse, const Density& density,
                         std::int64_t cells) {
   if (!coarse.surface.is_bounded())
     return bisect(coarse);
-  const DemandedSpacing spacing(coarse.surface, density, static_cast<double>(cells));
   return in_space_of(coarse.surface, [&](const auto& space) {
     using S = std::decay_t<decltype(space)>;
-    return bisected_inside<S>(state, coarse, *outline_of<S>(coarse.surface), spacing);
+    const OutlineOf<S>& outline = *outline_of<S>(coarse.surface);
+    const DemandedSpacing of_all(coarse.surface, density, static_cast<double>(cells));
+    Points3 points = bisected_inside<S>(state, coarse, outline, of_all);
+    if (!state.slides())
+      return points;
+    const double halves =
+        std::ldexp(static_cast<double>(state.on_boundary()), -bisections_left(state)) / 2;
+    const DemandedSpacing of_whole(coarse.surface, density,
+                                   static_cast<double>(cells - state.on_boundary()) + halves);
+    return thrown_along_boundary<S>(state, coarse, outline, points, of_whole, cells);
   });
 }
 
@@ -236,6 +333,18 @@ std::int64_t bisected(const Surface& surface, std::int64_t n, int bisections) {
 
 std::int64_t halved(const Surface& surface, std::int64_t n) {
   return surface.is_whole_sphere() ? (n + 8) / 4 : (n + 2) / 4;
+}
+
+std::int64_t generators_of_level(const Surface& surface, std::int64_t n, int bisections,
+                                 std::int64_t on_boundary) {
+  if (on_boundary == 0) {
+    for (; bisections > 0; --bisections)
+      n = halved(surface, n);
+    return n;
+  }
+  const auto edges = static_cast<double>(on_boundary);
+  const double whole = static_cast<double>(n) - edges / 2, scale = std::ldexp(1, -bisections);
+  return on_boundary + std::llround(scale * scale * whole - scale * edges / 2);
 }
 
 Begun begin(Points3&& start, const Recipe& recipe) {

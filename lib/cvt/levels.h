@@ -25,6 +25,11 @@ std::int64_t fewest_generators(const Surface& surface);
 std::int64_t bisected(const Surface& surface, std::int64_t n, int bisections = 1);
 /// The number whose bisection is nearest to n.
 std::int64_t halved(const Surface& surface, std::int64_t n);
+/// The number of generators of a level, so many bisections before the last one, which has n.
+/// \param on_boundary number of generators on the boundary, the same at all levels. Of each, a cell
+///        has half the size that it has at the last level, and at a coarser one less of it.
+std::int64_t generators_of_level(const Surface& surface, std::int64_t n, int bisections,
+                                 std::int64_t on_boundary);
 
 /// The start of a run.
 struct Begun {

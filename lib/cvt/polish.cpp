@@ -47,11 +47,14 @@ Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
   return seeds;
 }
 
-/// Descends with the penalty, which is raised where it does not suffice. False if no mesh is left.
+/// Descends with the penalty, which is raised where it does not suffice. False if no mesh is left,
+/// or one that ends elsewhere than before: beside land narrower than a cell, generators that slide
+/// may lose an edge of the boundary.
 template <Space S>
 bool polish_part(Subdomain<S>& part, const LocalInput& input, ShapePenalty penalty) {
   constexpr int least = 20, most = 40, most_raised = 2; // the least spread what moves
   constexpr double raise = 4;
+  const std::int64_t inner = part.may_slide() ? part.inner_triangles() : 0;
   for (int raised = 0; raised <= most_raised; ++raised, penalty.factors.shapes *= raise) {
     const Evaluation last =
         descend(part, part.points(), input, penalty, [&](const Evaluation& here, int evaluations) {
@@ -63,7 +66,7 @@ bool polish_part(Subdomain<S>& part, const LocalInput& input, ShapePenalty penal
     if (last.shapes.worst <= polished_excess)
       break;
   }
-  return true;
+  return !part.may_slide() || part.inner_triangles() == inner;
 }
 
 } // namespace
@@ -76,8 +79,10 @@ std::vector<std::uint8_t> released(const Tessellation<S>& tessellation, const Po
   for (const auto& [triangle, same] :
        worst_shapes(tessellation, points, input, penalty, accepted_excess))
     for (const std::int32_t site : tessellation.mesh().triangles.col(triangle))
-      if (site < std::ssize(fixed) && fixed[static_cast<std::size_t>(site)] <= firmest)
-        fixed[static_cast<std::size_t>(site)] = 0;
+      if (site < std::ssize(fixed))
+        if (std::uint8_t& pin = fixed[static_cast<std::size_t>(site)];
+            pin >= pinned_on_line && pin <= firmest)
+          pin = 0;
   return fixed;
 }
 

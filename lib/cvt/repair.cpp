@@ -2,9 +2,12 @@
 #include "cvt/repair.h"
 
 #include "base/triangle.h"
+#include "mesh/faces.h"
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -109,13 +112,14 @@ bool turn_back(Connectivity& mesh, const SitePositions<S>& sites, std::int32_t t
 }
 
 /// Flips until all edges are Delaunay; false if that takes more than `most` flips.
-template <Space S>
+/// \param stays whether an edge is not flipped.
+template <Space S, class Stays>
 bool flip_all(Connectivity& mesh, const SitePositions<S>& sites, std::vector<TriangleEdge> pending,
-              std::int64_t most, Repair& result) {
+              std::int64_t most, const Stays& stays, Repair& result) {
   while (!pending.empty()) {
     const TriangleEdge edge = pending.back();
     pending.pop_back();
-    if (is_delaunay(mesh, sites, edge))
+    if (is_delaunay(mesh, sites, edge) || stays(edge))
       continue;
     if (result.flips >= most)
       return false;
@@ -153,10 +157,168 @@ std::optional<Repair> repair(Connectivity& mesh, const SitePositions<S>& sites,
   for (const std::int32_t t : faults.overturned)
     if (!turn_back(mesh, sites, t, pending, result))
       return std::nullopt;
-  if (!flip_all(mesh, sites, std::move(pending), most, result))
+  const auto stays = [](const TriangleEdge&) { return false; };
+  if (!flip_all(mesh, sites, std::move(pending), most, stays, result))
     return std::nullopt;
   return result;
 }
+
+namespace {
+
+/// Puts edges into a mesh.
+template <Space S> class Constraints {
+public:
+  Constraints(Connectivity& mesh, const SitePositions<S>& sites, const std::vector<Ends>& edges)
+      : mesh_(mesh), sites_(sites), edges_(edges), triangle_of_(sites.points.size(), -1) {
+    for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+      note(t);
+  }
+
+  /// Returns the number of edges that are missing.
+  std::int64_t put_all() {
+    std::int64_t missing = 0;
+    for (const Ends& edge : edges_)
+      missing += put(edge) ? 0 : 1;
+    std::vector<TriangleEdge> pending;
+    for (const std::int32_t t : result_.changed)
+      for (int v = 0; v < 3; ++v)
+        pending.push_back({t, v});
+    constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
+    flip_all(
+        mesh_, sites_, std::move(pending), any,
+        [&](const TriangleEdge& edge) { return is_constraint(ends_of(edge)); }, result_);
+    return missing;
+  }
+
+private:
+  void note(std::int32_t t) {
+    for (int v = 0; v < 3; ++v)
+      triangle_of_[static_cast<std::size_t>(mesh_.triangles(v, t))] = t;
+  }
+
+  Ends ends_of(const TriangleEdge& edge) const {
+    return std::minmax({mesh_.triangles(next_vertex(edge.across), edge.triangle),
+                        mesh_.triangles(previous_vertex(edge.across), edge.triangle)});
+  }
+  bool is_constraint(const Ends& ends) const {
+    return std::binary_search(edges_.begin(), edges_.end(), ends);
+  }
+  /// The side of a site: > 0 to the left of the line from one to another.
+  int side(const Ends& line, std::int32_t site) const {
+    const auto at = positions_of(sites_, {line.first, line.second, site});
+    return sites_.space.orientation(at[0], at[1], at[2]);
+  }
+
+  /// The edge between two sites, from the triangle to its left; triangle -1 for none.
+  TriangleEdge find(std::int32_t from, std::int32_t to) const {
+    TriangleEdge found{-1, 0};
+    for_each_corner(from, [&](Corner corner) {
+      if (following_site(faces(), corner) == to)
+        found = {corner.triangle, previous_vertex(corner.vertex)};
+    });
+    return found;
+  }
+  Faces faces() const { return {mesh_.triangles, mesh_.neighbours, std::ssize(sites_.points)}; }
+  template <class Body> void for_each_corner(std::int32_t site, const Body& body) const {
+    const std::int32_t t = triangle_of_[static_cast<std::size_t>(site)];
+    walk_around(faces(), {t, vertex_at(mesh_.triangles, t, site)}, body);
+  }
+
+  /// The edges that a line crosses between its ends, each with its right end first; none if it
+  /// passes through a site.
+  std::optional<std::deque<Ends>> crossed(const Ends& line) const {
+    TriangleEdge edge{-1, 0};
+    for_each_corner(line.first, [&](Corner corner) {
+      if (side(line, following_site(faces(), corner)) < 0 &&
+          side(line, preceding_site(faces(), corner)) > 0)
+        edge = {corner.triangle, corner.vertex};
+    });
+    std::deque<Ends> found;
+    while (edge.triangle >= 0) {
+      const std::int32_t right = mesh_.triangles(next_vertex(edge.across), edge.triangle),
+                         left = mesh_.triangles(previous_vertex(edge.across), edge.triangle),
+                         beyond = mesh_.neighbours(edge.across, edge.triangle);
+      found.emplace_back(right, left);
+      if (beyond < 0)
+        return std::nullopt;
+      const int far = vertex_across(mesh_.neighbours, beyond, edge.triangle);
+      const std::int32_t site = mesh_.triangles(far, beyond);
+      if (site == line.second)
+        return found;
+      const int where = side(line, site);
+      if (where == 0)
+        return std::nullopt;
+      edge = {beyond, where > 0 ? next_vertex(far) : previous_vertex(far)};
+    }
+    return std::nullopt;
+  }
+
+  /// Puts one edge; false if that is not possible.
+  bool put(const Ends& line) {
+    if (find(line.first, line.second).triangle >= 0)
+      return true;
+    std::optional<std::deque<Ends>> edges = crossed(line);
+    if (!edges || std::any_of(edges->begin(), edges->end(), [&](const Ends& edge) {
+          return is_constraint(std::minmax({edge.first, edge.second}));
+        }))
+      return false;
+    std::size_t idle = 0; // edges in turn whose triangles form no convex quadrilateral
+    while (!edges->empty() && idle <= edges->size()) {
+      const Ends ends = edges->front();
+      edges->pop_front();
+      const TriangleEdge edge = find(ends.first, ends.second);
+      const std::optional<Ends> flipped = flip_if_convex(edge);
+      idle = flipped ? 0 : idle + 1;
+      if (!flipped)
+        edges->push_back(ends);
+      else if (const int a = side_beside(line, flipped->first),
+               b = side_beside(line, flipped->second);
+               a * b < 0)
+        edges->push_back(a < 0 ? *flipped : Ends{flipped->second, flipped->first});
+    }
+    return edges->empty();
+  }
+
+  /// side(), 0 for an end of the line.
+  int side_beside(const Ends& line, std::int32_t site) const {
+    return site == line.first || site == line.second ? 0 : side(line, site);
+  }
+
+  /// Flips an edge; returns the new one. None if the triangles would be overturned.
+  std::optional<Ends> flip_if_convex(const TriangleEdge& edge) {
+    const std::int32_t t = edge.triangle, u = mesh_.neighbours(edge.across, t);
+    const std::int32_t a = mesh_.triangles(edge.across, t),
+                       b = mesh_.triangles(next_vertex(edge.across), t),
+                       c = mesh_.triangles(previous_vertex(edge.across), t),
+                       d = mesh_.triangles(vertex_across(mesh_.neighbours, u, t), u);
+    if (!is_counter_clockwise(sites_, {a, b, d}) || !is_counter_clockwise(sites_, {d, c, a}))
+      return std::nullopt;
+    std::vector<TriangleEdge> unused;
+    flip_and_count(mesh_, edge, unused, result_);
+    note(t);
+    note(u);
+    return Ends{a, d};
+  }
+
+  Connectivity& mesh_;
+  const SitePositions<S>& sites_;
+  const std::vector<Ends>& edges_;
+  std::vector<std::int32_t> triangle_of_; ///< one of each site
+  Repair result_;
+};
+
+} // namespace
+
+template <Space S>
+std::int64_t constrain(Connectivity& mesh, const SitePositions<S>& sites,
+                       const std::vector<Ends>& edges) {
+  return Constraints<S>(mesh, sites, edges).put_all();
+}
+
+template std::int64_t constrain(Connectivity&, const SitePositions<Sphere>&,
+                                const std::vector<Ends>&);
+template std::int64_t constrain(Connectivity&, const SitePositions<Plane>&,
+                                const std::vector<Ends>&);
 
 template void add_faults(const Connectivity&, const SitePositions<Sphere>&, std::int32_t, Faults&);
 template void add_faults(const Connectivity&, const SitePositions<Plane>&, std::int32_t, Faults&);

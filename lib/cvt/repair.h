@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace calotte::cvt_detail {
@@ -54,5 +55,19 @@ struct Repair {
 template <Space S>
 std::optional<Repair> repair(Connectivity& mesh, const SitePositions<S>& sites,
                              const Faults& faults);
+
+/// Two sites, the lower one first.
+using Ends = std::pair<std::int32_t, std::int32_t>;
+
+/// Puts edges into a mesh by flips, and makes all others Delaunay as far as these allow: a
+/// constrained Delaunay triangulation (Chew, Algorithmica 4, 1989; the flips are those of Sloan,
+/// Comput. Struct. 47, 1993).
+/// \param edges ascending, each once; shorter than a half circle.
+/// \pre the mesh is Delaunay, and the stars of the edges' ends are closed.
+/// \returns the number of edges that the mesh does not have: they cross others of them, or pass
+///          through sites.
+template <Space S>
+std::int64_t constrain(Connectivity& mesh, const SitePositions<S>& sites,
+                       const std::vector<Ends>& edges);
 
 } // namespace calotte::cvt_detail

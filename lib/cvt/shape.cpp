@@ -119,7 +119,7 @@ public:
       if (excess.size > 0 && may_change(angle))
         part.add_shares(angle, cotangent,
                         excess.sign * part.add(factors_.shapes, excess.size, {angle.c, angle.c}));
-      add_side(angle, part);
+      add_side(angle, t, v, part);
       if (beyond_edges(cotangent.value) || limits_.most_off_midpoint < any_off_midpoint)
         add_edge(t, v, angle, cotangent, part);
     }
@@ -128,6 +128,9 @@ public:
 private:
   bool is_fixed(std::int32_t i) const {
     return !fixed_.empty() && fixed_[static_cast<std::size_t>(i)] == pinned;
+  }
+  bool is_on_boundary(std::int32_t i) const {
+    return is_fixed(i) || (!fixed_.empty() && fixed_[static_cast<std::size_t>(i)] == slides);
   }
   bool may_change(const Angle& angle) const {
     return !is_fixed(angle.a) || !is_fixed(angle.b) || !is_fixed(angle.c);
@@ -141,15 +144,22 @@ private:
 
   /// Adds the penalty for the length of the side across from a vertex. Each of its triangles adds
   /// half.
-  void add_side(const Angle& angle, PenaltyPart& part) const {
+  void add_side(const Angle& angle, std::int32_t t, int v, PenaltyPart& part) const {
     const Vec3 side = mesh_.offset(angle.a, angle.b);
     const double length = norm(side),
                  demanded = (inverse_spacing_[angle.a] + inverse_spacing_[angle.b]) / 2;
     if (!(demanded > 0)) // where the density is 0, no length is too short
       return;
+    double least = limits_.least_spacing, most = limits_.most_spacing;
     if (is_fixed(angle.a) && is_fixed(angle.b))
       return;
-    const Excess excess = excess_of(length * demanded, limits_.least_spacing, limits_.most_spacing);
+    if (is_on_boundary(angle.a) && is_on_boundary(angle.b)) {
+      if (const std::int32_t u = mesh_.across(t, v); u >= 0 && is_inner(u))
+        return; // across a passage, whose width is not their choice
+      least = std::min(least, least_along_boundary);
+      most = std::max(most, most_along_boundary);
+    }
+    const Excess excess = excess_of(length * demanded, least, most);
     if (!(excess.size > 0))
       return;
     const Vec3 pull = (excess.sign * part.add(factors_.shapes, excess.size, {angle.a, angle.b}) *

@@ -41,6 +41,9 @@ inline constexpr ShapeLimits shape_limits;
 /// first row from those on a boundary may be 1.32 times the demanded spacing away.
 inline constexpr double most_spacing_beside_fixed = 1.3;
 
+/// The same limits along a boundary, where generators start from 5/8 to 5/4 of that apart.
+inline constexpr double least_along_boundary = 0.6, most_along_boundary = 1.3;
+
 /// Whether values are valid as a run's CvtStop::least_spacing and CvtStop::most_off_midpoint.
 inline bool is_least_spacing(double spacing) { return spacing >= 0 && spacing <= 0.95; }
 inline bool is_most_off_midpoint(double offset) { return offset > 0 && offset <= any_off_midpoint; }
@@ -60,9 +63,10 @@ constexpr ShapeLimits early_glide_limits() {
   return limits;
 }
 
-/// How firmly a generator is pinned; 0 for one that moves. A polish releases some of those on
-/// lines, and later of those at their ends and confluences.
-inline constexpr std::uint8_t pinned_on_line = 1, pinned_at_end = 2, pinned = 3;
+/// How firmly a generator is pinned; 0 for one that moves. Those on the boundary slide along it in
+/// subdomains. A polish releases some of those on lines, and later of those at their ends and
+/// confluences.
+inline constexpr std::uint8_t slides = 1, pinned_on_line = 2, pinned_at_end = 3, pinned = 4;
 
 /// The factors of squared excesses in a penalty.
 struct ShapeFactors {

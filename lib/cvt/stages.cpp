@@ -72,7 +72,8 @@ bool is_due(const State& state, const Cursor& cursor) {
            (kind_after(state, cursor) == Kind::converge && state.points.cols() != action.cells &&
             may_come_nearer(cursor));
   return action.kind == Kind::raise && !state.report.converged && cursor.times < action.times &&
-         (last_accepted(state).shape_excess < reachable_excess || state.has_lines());
+         (last_accepted(state).shape_excess < reachable_excess || state.has_lines() ||
+          state.slides());
 }
 
 bool inserts(const State& state) { return has(state, Kind::insert); }

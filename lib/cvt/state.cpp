@@ -19,10 +19,31 @@ std::vector<std::uint8_t> fixed_generators(const State& state) {
   std::vector<std::uint8_t> fixed(state.fixed > 0 ? state.id.size() : 0);
   for (std::size_t r = 0; r < fixed.size(); ++r)
     if (const std::int32_t id = state.id[r]; id < state.fixed)
-      fixed[r] = !state.on_lines.contain(id) ? pinned
+      fixed[r] = id < state.on_lines.first   ? pinned
                  : id < state.on_lines.inner ? pinned_at_end
-                                             : pinned_on_line;
+                 : id < state.on_lines.end   ? pinned_on_line
+                                             : slides;
   return fixed;
+}
+
+std::vector<std::int32_t> boundary_order(const State& state,
+                                         const std::vector<std::int64_t>& ring_ends) {
+  if (ring_ends.empty())
+    return {};
+  const std::int64_t first = state.fixed - ring_ends.back();
+  std::vector<std::int32_t> site(static_cast<std::size_t>(ring_ends.back()), -1), // by its order
+      along(state.id.size(), -1);
+  for (std::size_t r = 0; r < state.id.size(); ++r)
+    if (const std::int64_t k = state.id[r] - first; k >= 0 && k < ring_ends.back())
+      site[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(r);
+  std::int64_t begin = 0;
+  for (const std::int64_t end : ring_ends) {
+    for (std::int64_t k = begin; k < end; ++k)
+      along[static_cast<std::size_t>(site[static_cast<std::size_t>(k)])] =
+          site[static_cast<std::size_t>(k + 1 < end ? k + 1 : begin)];
+    begin = end;
+  }
+  return along;
 }
 
 Points3 in_order(const State& state) {

@@ -69,10 +69,17 @@ struct State {
   }
   bool in_polish() const { return polish.penalty > 0; }
   bool has_lines() const { return on_lines.first < on_lines.end; }
+  std::int64_t on_boundary() const { return fixed - on_lines.end; } ///< generators that slide
+  bool slides() const { return on_boundary() > 0; }
 };
 
 /// By generator, whether it is pinned, see shape.h; empty if none is.
 std::vector<std::uint8_t> fixed_generators(const State& state);
+
+/// By generator, of those on the boundary the next one on their ring, of others -1; empty if the
+/// mesh does not end at generators. \param ring_ends see Schedule.
+std::vector<std::int32_t> boundary_order(const State& state,
+                                         const std::vector<std::int64_t>& ring_ends);
 
 /// The generators in the order of the result.
 Points3 in_order(const State& state);

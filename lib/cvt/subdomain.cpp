@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -41,7 +42,8 @@ std::vector<std::int32_t> triangles_around(const Connectivity& mesh,
 
 template <Space S>
 Subdomain<S>::Subdomain(const Cells<S>& cells, const Connectivity& mesh, const Points3& points,
-                        std::vector<std::int32_t> triangles, const LocalInput& input)
+                        std::span<const std::int32_t> along, std::vector<std::int32_t> triangles,
+                        const LocalInput& input)
     : cells_(cells), integrand_(input.integrand), density_(input.density) {
   sort_by_sites(triangles, mesh.triangles);
   part_ = mesh_detail::extract(mesh.triangles, mesh.neighbours, std::move(triangles));
@@ -53,6 +55,9 @@ Subdomain<S>::Subdomain(const Cells<S>& cells, const Connectivity& mesh, const P
   for (std::int64_t i = 0; i < x_.size(); ++i)
     x_[i] = cells_.position(part_.sites[static_cast<std::size_t>(i)]);
   moments_ = Array<CellMoments>(x_.size());
+  find_sliders(input);
+  if (!along.empty())
+    set_along(along);
   set_patch();
 }
 
@@ -61,7 +66,7 @@ template <Space S> void Subdomain<S>::number_sites(const LocalInput& input) {
   std::vector<std::uint8_t> moves(part_.sites.size());
   std::transform(part_.sites.begin(), part_.sites.end(), moves.begin(), [&](std::int32_t site) {
     return site < cells_.generator_count() &&
-           (input.fixed.empty() || input.fixed[static_cast<std::size_t>(site)] == 0);
+           (input.fixed.empty() || input.fixed[static_cast<std::size_t>(site)] <= slides);
   });
   for (const Submesh::RimEdge& edge : part_.rim)
     moves[static_cast<std::size_t>(edge.from)] = 0;
@@ -71,6 +76,68 @@ template <Space S> void Subdomain<S>::number_sites(const LocalInput& input) {
                               [&](std::int32_t site) { return site < cells_.generator_count(); });
   stays_.assign(part_.sites.size(), pinned);
   std::fill_n(stays_.begin(), patch_.owned, 0);
+}
+
+template <Space S> void Subdomain<S>::find_sliders(const LocalInput& input) {
+  constexpr double share = 0.05; // of the nearest neighbour's distance
+  std::vector<std::int32_t> slider(static_cast<std::size_t>(movable()), -1);
+  for (std::int32_t i = 0; !input.fixed.empty() && i < movable(); ++i)
+    if (input.fixed[static_cast<std::size_t>(part_.sites[static_cast<std::size_t>(i)])] == slides) {
+      slider[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(sliders_.size());
+      sliders_.push_back({i, infinite});
+      stays_[static_cast<std::size_t>(i)] = slides;
+    }
+  if (sliders_.empty())
+    return;
+  for (std::int32_t t = 0; t < triangles(); ++t)
+    for (int v = 0; v < 3; ++v) {
+      const std::int32_t i = part_.faces.triangles(v, t);
+      if (i >= movable() || slider[static_cast<std::size_t>(i)] < 0)
+        continue;
+      double& reach = sliders_[static_cast<std::size_t>(slider[static_cast<std::size_t>(i)])].reach;
+      for (const int w : {next_vertex(v), previous_vertex(v)})
+        reach =
+            std::min(reach, share * norm(cells_.offset(x_[i], x_[part_.faces.triangles(w, t)])));
+    }
+}
+
+template <Space S> std::int64_t Subdomain<S>::inner_triangles() const {
+  const PositionedMesh<S> in = positioned();
+  std::int64_t count = 0;
+  for (std::int32_t t = 0; t < triangles(); ++t)
+    count += part_.faces.triangles.col(t).maxCoeff() < generators_ && in.has_centre(t);
+  return count;
+}
+
+template <Space S>
+void Subdomain<S>::retract(const Points3& x, double step, const Points3& d, Points3& to) const {
+  cells_.retract(x, step, d, to);
+  for (const auto& [i, reach] : sliders_) {
+    const Vec3 from = column(x, i), way = step * column(d, i);
+    set_column(to, i, cells_.slid_on_boundary(from, way, reach));
+  }
+}
+
+template <Space S>
+void Subdomain<S>::make_tangential(Points3& vectors, const Points3& x,
+                                   base_detail::Part part) const {
+  cells_.make_tangential(vectors, x, part);
+  for (const auto& [i, reach] : sliders_)
+    if (i >= part.begin && i < part.end) {
+      const Vec3 along = cells_.along_boundary(column(x, i), reach);
+      set_column(vectors, i, dot(column(vectors, i), along) * along);
+    }
+}
+
+template <Space S> void Subdomain<S>::set_along(std::span<const std::int32_t> along) {
+  std::unordered_map<std::int32_t, std::int32_t> local; // of those on the boundary
+  for (std::size_t i = 0; i < part_.sites.size(); ++i)
+    if (along[static_cast<std::size_t>(part_.sites[i])] >= 0)
+      local.emplace(part_.sites[i], static_cast<std::int32_t>(i));
+  along_.assign(part_.sites.size(), -1);
+  for (const auto& [site, i] : local)
+    if (const auto next = local.find(along[static_cast<std::size_t>(site)]); next != local.end())
+      along_[static_cast<std::size_t>(i)] = next->second;
 }
 
 template <Space S> void Subdomain<S>::set_patch() {
@@ -146,6 +213,8 @@ template <Space S> void Subdomain<S>::evaluate(const Points3& points, bool, bool
   }
   for (std::int64_t i = 0; i < generators_; ++i)
     iteration.energy += moments_[i].energy;
+  if (!sliders_.empty())
+    make_tangential(out.gradient, points_, {0, movable()});
   iteration.l2 = std::sqrt(iteration.l2 / movable());
   iteration.linf = std::sqrt(iteration.linf);
   iteration.gradient = std::sqrt(iteration.gradient);
@@ -173,6 +242,11 @@ void Subdomain<S>::set_centroids(const Points3& points, const Evaluation& at, Po
   to.resize(3, movable());
   for (std::int32_t i = 0; i < movable(); ++i)
     set_column(to, i, Cells<S>::centroid(column(points, i), column(at.gradient, i), at.mass[i]));
+  for (const auto& [i, reach] : sliders_) {
+    const Vec3& x = column(points, i);
+    const Vec3 way = (-0.5 / at.mass[i]) * column(at.gradient, i);
+    set_column(to, i, cells_.slid_on_boundary(x, way, reach));
+  }
 }
 
 template <Space S>
@@ -251,7 +325,8 @@ bool work_in(std::span<const Surroundings> surroundings, const LocalTask<S>& tas
   for_each_task(std::ssize(parts), [&](std::int64_t k) {
     const auto index = static_cast<std::size_t>(k);
     std::optional<Subdomain<S>>& part = parts[index];
-    part.emplace(tessellation.cells(), mesh, points, surroundings[index].triangles, input);
+    part.emplace(tessellation.cells(), mesh, points, tessellation.along(),
+                 surroundings[index].triangles, input);
     if (part->movable() == 0 || !task(index, *part))
       part.reset();
   });

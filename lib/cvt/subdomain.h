@@ -32,29 +32,35 @@ namespace calotte::cvt_detail {
 struct LocalInput {
   const Density& density;
   const Integrand& integrand;
-  const std::vector<std::uint8_t>& fixed; ///< by generator, whether it is pinned, or empty
+  const std::vector<std::uint8_t>& fixed; ///< by generator, how it is pinned, see shape.h; or empty
 };
 
 /// Some triangles of a mesh, as a functional of the generators inside. The generators on the
-/// subdomain's boundary and the fixed ones stay. Subdomains without a common triangle are
-/// independent.
+/// subdomain's boundary and the pinned ones stay; those on the surface's boundary slide along it.
+/// Subdomains without a common triangle are independent.
 ///
 /// Sites and triangles have local numbers, which depend only on the sites of the triangles: the
 /// result has the same bits for any numbering of the mesh's triangles.
 template <Space S> class Subdomain final : public Functional {
 public:
   /// \param cells at the points. \param mesh Delaunay. \param triangles each once.
+  /// \param along of the mesh, see PositionedMesh.
   Subdomain(const Cells<S>& cells, const Connectivity& mesh, const Points3& points,
-            std::vector<std::int32_t> triangles, const LocalInput& input);
+            std::span<const std::int32_t> along, std::vector<std::int32_t> triangles,
+            const LocalInput& input);
 
   PositionedMesh<S> positioned() const {
-    return {cells_, part_.faces, {x_.begin(), part_.sites.size()}};
+    return {cells_, part_.faces, {x_.begin(), part_.sites.size()}, along_};
   }
   std::int32_t movable() const { return patch_.owned; } ///< sites that move: the first ones
   /// The sites' numbers in the mesh: first those that move, ascending, then the others.
   std::span<const std::int32_t> sites() const { return part_.sites; }
   const Points3& points() const { return points_; } ///< of the generators that move
   std::int64_t triangles() const { return part_.faces.triangles.cols(); }
+  bool may_slide() const {
+    return !sliders_.empty();
+  }                                     ///< whether a generator does, on the boundary
+  std::int64_t inner_triangles() const; ///< the number of those of generators on the surface
 
   void penalise(const ShapePenalty& penalty) { penalty_ = penalty; }
 
@@ -71,17 +77,15 @@ public:
   void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                 Evaluation& out) override;
   void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const override;
-  void retract(const Points3& x, double step, const Points3& d, Points3& to) const override {
-    cells_.retract(x, step, d, to);
-  }
-  void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) const override {
-    cells_.make_tangential(vectors, x, part);
-  }
+  void retract(const Points3& x, double step, const Points3& d, Points3& to) const override;
+  void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) const override;
   /// A local descent uses no Laplacian.
   Laplacian laplacian(const Points3&) override { return {}; }
 
 private:
   void number_sites(const LocalInput& input);
+  void find_sliders(const LocalInput& input);
+  void set_along(std::span<const std::int32_t> along);
   void set_patch();
   bool integrate();
   void add_penalty(Evaluation& out);
@@ -96,6 +100,14 @@ private:
   Array<CellMoments> moments_;
   std::vector<std::int32_t> suspects_;
   std::vector<std::uint8_t> stays_; ///< by site
+  /// A generator that slides along the boundary, and the length over which it sees the boundary's
+  /// direction.
+  struct Slider {
+    std::int32_t site;
+    double reach;
+  };
+  std::vector<Slider> sliders_;     ///< ascending
+  std::vector<std::int32_t> along_; ///< see PositionedMesh
   std::int64_t generators_ = 0;     ///< sites that are generators: the first ones
   ShapePenalty penalty_;
   bool flipped_ = false;

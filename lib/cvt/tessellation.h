@@ -99,7 +99,17 @@ public:
   void make_delaunay(Effort& effort);
 
   /// The mesh with the positions of its sites.
-  PositionedMesh<S> positioned() const { return {cells_, mesh_, cells_.positions().points}; }
+  PositionedMesh<S> positioned() const {
+    return {cells_, mesh_, cells_.positions().points, along_};
+  }
+
+  /// Sets where the mesh ends, see PositionedMesh::along. \param along by generator, or empty.
+  void end_along(std::vector<std::int32_t> along) {
+    along_ = std::move(along);
+    if (!along_.empty())
+      along_.resize(static_cast<std::size_t>(cells_.site_count()), -1);
+  }
+  std::span<const std::int32_t> along() const { return along_; }
 
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
   std::optional<Connectivity> take_mesh(const Points3& points);
@@ -136,6 +146,7 @@ private:
   template <class Task> Faults run_tasks(const Task& task, Effort& effort);
 
   Cells<S> cells_;
+  std::vector<std::int32_t> along_;
   std::int64_t generators_;
   Decomposition decomposition_;
   Connectivity mesh_;

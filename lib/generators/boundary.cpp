@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "density/demanded_spacing.h"
+#include "domain/along_boundary.h"
 #include "domain/outline.h"
 #include "domain/rings.h"
 #include "domain/spherical_outline.h"
@@ -49,22 +50,6 @@ std::vector<Curve<S>> make_curves(const Surface& surface, const DemandedSpacing&
   return curves;
 }
 
-/// Moves a point of the boundary inside by some roundoffs if rounding has put it outside.
-template <Space S>
-Vec3 inside(const OutlineOf<S>& outline, const Vec3& on, const Segment& segment) {
-  const Vec3 left = left_of<S>(segment);
-  const auto largest = [](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)); };
-  const double roundoff =
-      S::on_sphere ? 0x1p-53 : 0x1p-52 * std::max(largest(segment.from), largest(segment.to));
-  Vec3 x = on;
-  for (int shift = 1; side_of<S>(&outline, x) == Side::outside && shift <= 8; ++shift) {
-    x = on + (shift * roundoff) * left;
-    if constexpr (S::on_sphere)
-      x = normalised(x);
-  }
-  return x;
-}
-
 /// The number of cells of a lattice without a boundary that has the spacing of n generators, b of
 /// which are on the boundary and have half a cell each. b is inversely proportional to the spacing:
 /// with b_0 edges at the spacing of n whole cells, the ratio s of the spacings satisfies n s^2 -
@@ -75,7 +60,8 @@ double whole_cells(double n, double edges) {
 }
 
 template <Space S>
-Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Density& density) {
+BoundaryPoints points_on_boundary(const Surface& surface, std::int64_t cells,
+                                  const Density& density) {
   constexpr std::int64_t samples = 65536;
   const auto n = static_cast<double>(cells);
   double edges = 0;
@@ -84,6 +70,7 @@ Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Den
     edges += curve.edges();
   const DemandedSpacing spacing(surface, density, whole_cells(n, edges), samples);
   const std::vector<Curve<S>> curves = make_curves<S>(surface, spacing);
+  BoundaryPoints out;
   std::vector<Vec3> positions;
   for (std::size_t ring = 0; ring < curves.size(); ++ring) {
     const Curve<S>& curve = curves[ring];
@@ -91,31 +78,39 @@ Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Den
             "the density is zero along ring {} of the boundary; make it positive", ring);
     for (const double stop : curve.stops()) {
       const auto [point, segment] = curve.position(stop);
-      positions.push_back(inside<S>(*outline_of<S>(surface), point, curve.segments()[segment]));
+      positions.push_back(domain_detail::pushed_inside<S>(
+          *outline_of<S>(surface), point, domain_detail::left_of<S>(curve.segments()[segment])));
     }
+    out.ring_ends.push_back(std::ssize(positions));
   }
-  Points3 points(3, std::ssize(positions));
+  out.points.resize(3, std::ssize(positions));
   for (std::size_t i = 0; i < positions.size(); ++i)
-    base_detail::set_column(points, static_cast<std::int64_t>(i), positions[i]);
-  return points;
+    base_detail::set_column(out.points, static_cast<std::int64_t>(i), positions[i]);
+  return out;
 }
 
 } // namespace
 
-Points3 generators_detail::all_boundary_points(const Surface& surface, std::int64_t cells,
-                                               const Density& density) {
+BoundaryPoints generators_detail::all_boundary_points(const Surface& surface, std::int64_t cells,
+                                                      const Density& density) {
   base_detail::require_count(cells, 4, "the number of cells");
   if (!surface.is_bounded())
-    return Points3(3, 0);
+    return {Points3(3, 0), {}};
   return surface.is_sphere() ? points_on_boundary<Sphere>(surface, cells, density)
                              : points_on_boundary<Plane>(surface, cells, density);
 }
 
+BoundaryPoints generators_detail::limited_boundary_points(const Surface& surface,
+                                                          std::int64_t cells,
+                                                          const Density& density) {
+  BoundaryPoints out = all_boundary_points(surface, cells, density);
+  require(out.points.cols() < std::max<std::int64_t>(cells, 1),
+          "the boundary takes {} of the {} generators; give more cells", out.points.cols(), cells);
+  return out;
+}
+
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {
-  Points3 points = all_boundary_points(surface, cells, density);
-  require(points.cols() < std::max<std::int64_t>(cells, 1),
-          "the boundary takes {} of the {} generators; give more cells", points.cols(), cells);
-  return points;
+  return limited_boundary_points(surface, cells, density).points;
 }
 
 } // namespace calotte

@@ -4,6 +4,7 @@
 #include "base/circle.h"
 #include "base/elementary.h"
 #include "density/hexagons.h"
+#include "domain/along_boundary.h"
 
 #include <calotte/surface.h>
 
@@ -12,6 +13,9 @@
 #include <utility>
 
 namespace calotte::generators_detail {
+
+using domain_detail::left_of;
+
 namespace {
 
 /// The length of a segment; on the sphere an angle.
@@ -34,13 +38,6 @@ template <Space S> Vec3 point_at(const Segment& segment, double along) {
 }
 
 } // namespace
-
-template <Space S> Vec3 left_of(const Segment& segment) {
-  if constexpr (S::on_sphere)
-    return normalised(cross(segment.from, segment.to));
-  const Vec3 way = normalised(segment.to - segment.from);
-  return {-way.y, way.x, 0};
-}
 
 template <Space S>
 Curve<S>::Curve(const DemandedSpacing& spacing, double longest, std::vector<Segment> segments,
@@ -159,8 +156,6 @@ template <Space S> double longest_step(const Surface& surface) {
 
 template class Curve<Sphere>;
 template class Curve<Plane>;
-template Vec3 left_of<Sphere>(const Segment& segment);
-template Vec3 left_of<Plane>(const Segment& segment);
 template double longest_step<Sphere>(const Surface& surface);
 template double longest_step<Plane>(const Surface& surface);
 

@@ -60,16 +60,11 @@ private:
   std::vector<double> corners_ = {0}; ///< edges at the starts of segments, and at the end
 };
 
-/// The unit vector to the left of a segment.
-template <Space S> Vec3 left_of(const Segment& segment);
-
 /// The maximum step of the measurement of curves on a surface: a share of its extent.
 template <Space S> double longest_step(const Surface& surface);
 
 extern template class Curve<Sphere>;
 extern template class Curve<Plane>;
-extern template Vec3 left_of<Sphere>(const Segment& segment);
-extern template Vec3 left_of<Plane>(const Segment& segment);
 extern template double longest_step<Sphere>(const Surface& surface);
 extern template double longest_step<Plane>(const Surface& surface);
 

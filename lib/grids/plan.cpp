@@ -193,7 +193,7 @@ double with_boundary(const Schedule& schedule, double implied) {
             static_cast<double>(generators_detail::all_boundary_points(
                                     recipe.surface, static_cast<std::int64_t>(std::max(cells, 4.0)),
                                     schedule.density)
-                                    .cols() /
+                                    .points.cols() /
                                 2);
   return std::min(cells, double(most_points));
 }
@@ -265,22 +265,22 @@ Points3 joined(const Points3& a, const Points3& b) {
 }
 
 /// Generators on the boundary, for Boundary::generators.
-Points3 on_boundary(const Schedule& schedule) {
+generators_detail::BoundaryPoints on_boundary(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   if (recipe.boundary != Boundary::generators)
-    return Points3(3, 0);
+    return {Points3(3, 0), {}};
   require(recipe.surface.is_bounded(),
           "a mesh ends at generators in a bounded surface only; give the rings that bound it");
   require(recipe.start.kind != CvtStart::Kind::points,
           "a mesh that ends at generators does not take points of the start; give a number of "
           "cells, or fixed points on the boundary");
-  return boundary_points(recipe.surface, recipe.cells, schedule.density);
+  return generators_detail::limited_boundary_points(recipe.surface, recipe.cells, schedule.density);
 }
 
 /// Puts generators on lines and on the boundary after the other fixed ones.
 void take_curves(Schedule& schedule) {
   Recipe& recipe = schedule.recipe;
-  const Points3 boundary = on_boundary(schedule);
+  auto [boundary, ring_ends] = on_boundary(schedule);
   if (!recipe.lines.empty()) {
     require(recipe.start.kind != CvtStart::Kind::points,
             "generators on lines follow from a number of cells; give one, and no points of the "
@@ -295,6 +295,7 @@ void take_curves(Schedule& schedule) {
   }
   recipe.fixed = joined(recipe.fixed, boundary);
   schedule.on_boundary = boundary.cols();
+  schedule.ring_ends = std::move(ring_ends);
 }
 
 void require_free(const Recipe& recipe) {
@@ -329,7 +330,8 @@ FirstLevel first_level(const Schedule& schedule) {
   if (start.kind == CvtStart::Kind::continuation)
     return first_of_continuation(recipe.cells, schedule.density.uniform());
   if (start.kind == CvtStart::Kind::multilevel)
-    return first_of_multilevel(recipe.cells, recipe.surface, schedule.density, fixed);
+    return first_of_multilevel(recipe.cells, recipe.surface, schedule.density, fixed,
+                               schedule.on_boundary);
   return first_of_kind(start.kind, recipe.cells, start.bisections.value_or(0), recipe.surface,
                        fixed);
 }
@@ -389,7 +391,7 @@ Schedule plan(Recipe recipe) {
   const FirstLevel first = first_level(schedule);
   schedule.first = first.kind;
   require_room(all, first);
-  schedule.actions = actions_of(all, first, schedule.on_lines > 0);
+  schedule.actions = actions_of(all, first, schedule.on_lines, schedule.on_boundary);
   return schedule;
 }
 

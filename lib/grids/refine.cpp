@@ -323,7 +323,7 @@ std::int64_t bad_shapes(const ChangedMesh& changed) {
     std::vector<std::uint8_t> stays;
     for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
       points.push_back(measured_point(space, column(mesh.points, i)));
-      stays.push_back(changed.old_of_new[i] >= 0);
+      stays.push_back(changed.old_of_new[i] >= 0 ? pinned_on_line : std::uint8_t{0});
     }
     const DoubleVector no_spacing = DoubleVector::Zero(mesh.points.cols());
     const ShapeInput<S> input{{cells, faces, points}, no_spacing, shape_limits, stays};

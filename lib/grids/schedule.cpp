@@ -19,13 +19,6 @@ int rounds_of_level(int rounds, int bisections_left) {
   return std::min(rounds * (bisections_left + 1), std::max(rounds, course::most_rounds));
 }
 
-/// The number of generators at the end of a level of a run with insertion.
-std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bisections_left) {
-  for (int k = 0; k < bisections_left; ++k)
-    cells = cvt_detail::halved(surface, cells);
-  return cells;
-}
-
 /// The end of all descents but the last of a run with insertion.
 CvtAction early(CvtAction end) {
   end.tolerance = end.norm == Norm::l2_scaled ? std::max(course::early_tolerance, end.tolerance)
@@ -37,7 +30,8 @@ CvtAction early(CvtAction end) {
 
 } // namespace
 
-std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first, bool has_lines) {
+std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first,
+                                  std::int64_t on_lines, std::int64_t on_boundary) {
   const CvtStop& stop = recipe.stop;
   const int rounds = recipe.start.insertion_rounds.value_or(0);
   CvtAction end;
@@ -56,7 +50,7 @@ std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first,
   std::int64_t cells = first.cells;
   for (int left = first.bisections; left >= 0; --left) {
     if (rounds > 0)
-      cells = cells_of_level(recipe.surface, recipe.cells, left);
+      cells = cvt_detail::generators_of_level(recipe.surface, recipe.cells, left, on_boundary);
     else if (left < first.bisections)
       cells = cvt_detail::bisected(recipe.surface, cells);
     add(left == first.bisections ? Kind::start : Kind::bisect, before, cells);
@@ -69,7 +63,7 @@ std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first,
     const CvtAction polish{.norm = end.norm, .max_iterations = course::polish_iterations};
     add(Kind::polish, polish, cells);
     add(Kind::raise, polish, cells,
-        has_lines ? course::most_raised_beside_lines : course::most_raised);
+        on_lines > 0 ? course::most_raised_beside_lines : course::most_raised);
   }
   return actions;
 }

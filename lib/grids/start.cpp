@@ -142,7 +142,7 @@ FirstLevel first_of_continuation(std::int64_t cells, bool uniform) {
 }
 
 FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const Density& density,
-                               std::int64_t fixed) {
+                               std::int64_t fixed, std::int64_t on_boundary) {
   constexpr std::int64_t fewest_at_start = 160;
   std::int64_t least = std::max(fewest_at_start, 4 * fixed);
   if (!surface.is_sphere())
@@ -150,9 +150,12 @@ FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const
   else if (!surface.is_bounded())
     least = std::max(least, spreading(site_density(density)));
   FirstLevel first{CvtStart::Kind::density, cells, 0};
-  const auto halved = [&](std::int64_t n) { return cvt_detail::halved(surface, n); };
-  for (; halved(first.cells) >= least; first.cells = halved(first.cells))
+  const auto at = [&](int bisections) {
+    return cvt_detail::generators_of_level(surface, cells, bisections, on_boundary);
+  };
+  while (at(first.bisections + 1) >= least)
     ++first.bisections;
+  first.cells = at(first.bisections);
   return first;
 }
 

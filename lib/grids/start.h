@@ -26,9 +26,10 @@ FirstLevel first_of_continuation(std::int64_t cells, bool uniform);
 /// The first level of CvtStart::Kind::multilevel: the fewest generators that resolve the density.
 /// They are at least 160, 12 in each hemisphere on average or 6 across a box, and four times the
 /// number of fixed generators.
+/// \param on_boundary of the fixed ones the number of those that the mesh ends at.
 /// \throws Error invalid_argument for an ill-formed density.
 FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const Density& density,
-                               std::int64_t fixed);
+                               std::int64_t fixed, std::int64_t on_boundary);
 
 /// The first level of another kind with a number of bisections. \throws Error invalid_argument if
 /// bisections do not lead to the number of cells, with the nearest numbers that they reach.

@@ -124,7 +124,7 @@ TEST_CASE("glide: the mesh that it leaves is the triangulation of the points") {
 TEST_CASE("glide: fixed generators keep their bits") {
   const Points3 before = with_dislocations(2000, Density{}, 1);
   std::vector<std::uint8_t> fixed(2000, 0);
-  std::fill(fixed.begin(), fixed.begin() + 1000, 1);
+  std::fill(fixed.begin(), fixed.begin() + 1000, cvt_detail::pinned);
   const Glided after = glided(before, {}, fixed), free = glided(before, {});
   CHECK(after.steps > 0);
   CHECK((after.points.leftCols(1000) == before.leftCols(1000)));

@@ -142,7 +142,7 @@ TEST_CASE("subdomains: descents lower the energy of all, whose mesh stays Delaun
 TEST_CASE("subdomains: fixed generators keep their bits") {
   std::vector<std::uint8_t> fixed(1200, 0);
   for (std::size_t i = 0; i < fixed.size(); i += 3)
-    fixed[i] = 1;
+    fixed[i] = pinned;
   Moving run(random_sphere(1200, {}, 5), {}, fixed);
   const Points3 before = run.points;
   run.work(seeds_of(run.tessellation.mesh(), 9),

@@ -344,8 +344,35 @@ TEST_CASE("make_grid: a run goes on to the same bits after each of its actions")
   }
 }
 
+namespace {
+
+/// A square of 20 degrees without a bent wall, which is 0.02 degrees thick but for spikes on one
+/// side.
+Surface around_bent_wall() {
+  std::vector<Eigen::Vector2d> corners;
+  constexpr int steps = 17;
+  for (int k = 0; k <= 2 * steps + 1; ++k) {
+    const bool back = k > steps;
+    const double angle = 10 * degree * (back ? 2 * steps + 1 - k : k), radius = back         ? 4.98
+                                                                                : k % 5 == 2 ? 6.5
+                                                                                             : 5;
+    corners.emplace_back(10 + radius * std::cos(angle), 10 + radius * std::sin(angle));
+  }
+  Points3 wall(3, std::ssize(corners)), square(3, 4);
+  for (std::size_t k = 0; k < corners.size(); ++k) // clockwise
+    wall.col(wall.cols() - 1 - static_cast<Eigen::Index>(k)) = from_lonlat(corners[k]);
+  Eigen::Index next = 0;
+  for (const auto& [longitude, latitude] :
+       std::vector<std::pair<double, double>>{{0, 0}, {20, 0}, {20, 20}, {0, 20}})
+    square.col(next++) = from_lonlat(Eigen::Vector2d(longitude, latitude));
+  return Surface::sphere().within({square, wall});
+}
+
+} // namespace
+
 TEST_CASE("make_grid: a mesh that leaves the boundary where it is narrow says by how many edges") {
-  // Two bays with a wall between them that is much thinner than a cell.
+  // Two bays with a wall between them that is much thinner than a cell: the mesh ends at both
+  // sides.
   Points3 wall(3, 8);
   Eigen::Index next = 0;
   for (const auto& [longitude, latitude] : std::vector<std::pair<double, double>>{
@@ -356,7 +383,16 @@ TEST_CASE("make_grid: a mesh that leaves the boundary where it is narrow says by
   recipe.boundary = Boundary::generators;
   recipe.start.kind = CvtStart::Kind::random;
   recipe.surface = Surface::sphere().within({wall});
-  CHECK(make_grid(recipe).report.off_boundary > 0);
+  const Cvt beside_wall = make_grid(recipe);
+  CHECK(beside_wall.report.off_boundary == 0);
+  CHECK(check_surface(beside_wall.mesh).failure == "");
+  // The edges along the two sides of a wall that is thin and bent cross each other.
+  recipe.surface = around_bent_wall();
+  recipe.start = {};
+  recipe.cells = 200;
+  const Cvt around_wall = make_grid(recipe);
+  CHECK(around_wall.report.off_boundary > 0);
+  CHECK(check_surface(around_wall.mesh).failure == "");
   recipe.surface = part();
   CHECK(make_grid(recipe).report.off_boundary == 0);
   recipe.boundary = Boundary::clip;
