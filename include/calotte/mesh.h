@@ -77,6 +77,15 @@ struct Polygons {
 ///         triangles, with the index of the triangle.
 IdLists neighbours(const Mesh& mesh);
 
+/// The boundary of an open mesh: the sites of each closed loop of outer edges, with the mesh to the
+/// left, seen from outside the sphere. A loop starts at its lowest site. At a site where the
+/// boundary passes more than once, loops touch, and do not cross: it occurs in each of them, or
+/// more than once in one. Linear time.
+/// \param mesh as for neighbours().
+/// \returns loops of three sites or more, by the lowest triangle at each; none for a closed mesh.
+/// \throws Error as neighbours().
+IdLists boundary_loops(const Mesh& mesh);
+
 /// The order of the cells in a file.
 enum class Numbering {
   by_format, ///< curve in NetCDF files, input in all others

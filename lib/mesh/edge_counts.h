@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "mesh/boundary_loops.h"
 #include "mesh/faces.h"
 
 #include <calotte/check.h>
@@ -52,31 +53,15 @@ void count_edge(const Surface& s, std::int64_t t, int i, EdgeCounts& counts) {
   counts.shortest = std::min(counts.shortest, length);
 }
 
-/// The boundary as one successor for each of its sites; -1 elsewhere. A site at which the boundary
-/// passes more than once has one of its successors.
-inline std::vector<std::int32_t> boundary_successors(const Faces& s) {
-  std::vector<std::int32_t> next(static_cast<std::size_t>(s.sites()), -1);
-  for (std::int64_t t = 0; t < s.triangles(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (s.neighbour(t, i) < 0)
-        next[static_cast<std::size_t>(s.vertex(t, i + 1))] = s.vertex(t, i + 2);
-  return next;
-}
-
 template <class Surface> void count_boundary(const Surface& s, EdgeCounts& counts) {
-  const std::vector<std::int32_t> next = boundary_successors(s);
-  const auto successor = [&](std::int32_t site) { return next[static_cast<std::size_t>(site)]; };
-  std::vector<bool> seen(next.size());
-  for (std::int32_t start = 0; start < s.sites(); ++start) {
-    if (successor(start) < 0 || seen[static_cast<std::size_t>(start)])
-      continue;
-    ++counts.loops;
-    for (std::int32_t site = start; site >= 0 && !seen[static_cast<std::size_t>(site)];
-         site = successor(site)) {
-      seen[static_cast<std::size_t>(site)] = true;
-      const std::int32_t middle = successor(site), end = middle < 0 ? -1 : successor(middle);
-      if (end >= 0 && end != site && s.orientation(site, middle, end) < 0)
-        ++counts.not_convex;
+  const EdgeLoops loops = edge_loops(s);
+  counts.loops += loops.size();
+  for (std::int64_t k = 0; k < loops.size(); ++k) {
+    std::int64_t last = loops[k].back();
+    for (const std::int64_t edge : loops[k]) {
+      counts.not_convex +=
+          s.orientation(start_of(s, last), start_of(s, edge), end_of(s, edge)) < 0 ? 1 : 0;
+      last = edge;
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/first_fault.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "mesh/room.h"
@@ -39,6 +40,25 @@ template <class AnyMesh> void require_neighbours(const AnyMesh& mesh) {
   require(mesh.neighbours.cols() == mesh.triangles.cols(),
           "the mesh has {} triangles but neighbours of {}; give a mesh with both",
           mesh.triangles.cols(), mesh.neighbours.cols());
+}
+
+/// \throws Error invalid_argument for a mesh without neighbours, and for triangles whose vertices
+/// are
+///         not three of its points, with the index of the first.
+inline void require_triangles(const Mesh& mesh) {
+  require_neighbours(mesh);
+  FirstFault fault;
+  for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t) {
+      const std::int32_t a = mesh.triangles(0, t), b = mesh.triangles(1, t),
+                         c = mesh.triangles(2, t);
+      if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= mesh.points.cols() || a == b ||
+          b == c || c == a)
+        fault.at(t);
+    }
+  });
+  fault.refuse("triangle", "has a vertex outside the mesh's points, or one of them twice: "
+                           "triangulate the points anew");
 }
 
 } // namespace calotte::mesh_detail

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/mesh.h>
 
-#include "base/first_fault.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "mesh/faces.h"
@@ -13,27 +12,6 @@
 #include <vector>
 
 namespace calotte {
-namespace mesh_detail {
-namespace {
-
-void require_triangles(const Mesh& mesh) {
-  require_neighbours(mesh);
-  FirstFault fault;
-  for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t) {
-      const std::int32_t a = mesh.triangles(0, t), b = mesh.triangles(1, t),
-                         c = mesh.triangles(2, t);
-      if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= mesh.points.cols() || a == b ||
-          b == c || c == a)
-        fault.at(t);
-    }
-  });
-  fault.refuse("triangle", "has a vertex outside the mesh's points, or one of them twice: "
-                           "triangulate the points anew");
-}
-
-} // namespace
-} // namespace mesh_detail
 
 IdLists neighbours(const Mesh& mesh) {
   using namespace mesh_detail;

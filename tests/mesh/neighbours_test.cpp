@@ -159,6 +159,56 @@ TEST_CASE("a walk around a site meets its triangles and its neighbours, of sever
   }
 }
 
+TEST_CASE("the loops of the boundary have each outer edge once, and turn around a fan") {
+  for (const auto& [name, mesh] : meshes()) {
+    CAPTURE(name);
+    std::multiset<Pair> outer;
+    for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+      for (int i = 0; i < 3; ++i)
+        if (mesh.neighbours(i, t) < 0)
+          outer.insert({mesh.triangles((i + 1) % 3, t), mesh.triangles((i + 2) % 3, t)});
+    const IdLists loops = boundary_loops(mesh);
+    CHECK((loops.size() == 0) == outer.empty());
+    for (std::int64_t k = 0; k < loops.size(); ++k) {
+      const auto loop = loops[k];
+      CHECK(loop.front() == *std::ranges::min_element(loop));
+      CHECK(loop.size() >= 3);
+      for (std::size_t j = 0; j < loop.size(); ++j) {
+        const std::int32_t before = loop[j], site = loop[(j + 1) % loop.size()],
+                           after = loop[(j + 2) % loop.size()];
+        const auto edge = outer.find({before, site});
+        REQUIRE(edge != outer.end());
+        outer.erase(edge);
+        // The fan that starts at the edge to `after` ends at the edge from `before`.
+        std::multiset<Pair> pairs = pairs_around(mesh, site);
+        std::int32_t end = after;
+        for (auto pair = pairs.lower_bound({end, -1}); pair != pairs.end() && (*pair)[0] == end;
+             pair = pairs.lower_bound({end, -1})) {
+          end = (*pair)[1];
+          pairs.erase(pair);
+        }
+        if (!mesh.surface.is_box()) // where two sites may share several edges
+          CHECK(end == before);
+      }
+    }
+    CHECK(outer.empty());
+  }
+}
+
+TEST_CASE("a boundary that passes a site twice makes loops that touch there") {
+  Mesh mesh; // two triangles of the plane that share one corner
+  mesh.surface = Surface::plane();
+  mesh.points.resize(3, 5);
+  mesh.points << 0, 1, 1, -1, -1, 0, -1, 1, 1, -1, 0, 0, 0, 0, 0;
+  mesh.triangles.resize(3, 2);
+  mesh.triangles << 0, 0, 1, 3, 2, 4;
+  mesh.neighbours = Triangles::Constant(3, 2, -1);
+  const IdLists loops = boundary_loops(mesh);
+  REQUIRE(loops.size() == 2);
+  CHECK(std::ranges::equal(loops[0], std::array{0, 1, 2}));
+  CHECK(std::ranges::equal(loops[1], std::array{0, 3, 4}));
+}
+
 TEST_CASE("in a closed mesh they are the cells on each cell") {
   for (const auto& [name, mesh] : closed_meshes()) {
     CAPTURE(name);
@@ -191,6 +241,7 @@ TEST_CASE("neighbours that do not fit are refused, with the index of the triangl
   broken = mesh;
   broken.neighbours.resize(3, 0);
   CHECK(code_of([&] { neighbours(broken); }) == ErrorCode::invalid_argument);
+  CHECK(code_of([&] { boundary_loops(broken); }) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("marks grow to all that is within some rows of them") {
