@@ -2,6 +2,7 @@
 #pragma once
 
 /// All of the library.
+#include <calotte/boundary.h>     // parts of the boundary of a mesh
 #include <calotte/check.h>        // whether a mesh is Delaunay, in exact arithmetic
 #include <calotte/checkpoint.h>   // the state of a run in a file
 #include <calotte/cut.h>          // parts of files: limited areas cut, land culled

@@ -50,7 +50,7 @@ set(headers_of_mesh check locate)
 set(headers_of_density raster widths)
 set(headers_of_grids grid limited_area refine)
 set(headers_of_quality gates)
-set(headers_of_oceans generalise ocean)
+set(headers_of_oceans boundary generalise ocean)
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/io_headers.cmake)
 set(headers_of_io ${calotte_io_headers})
 list(REMOVE_ITEM headers_of_io partition) # a room of its own, which the core lacks, too
