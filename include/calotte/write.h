@@ -62,6 +62,10 @@ enum class Format {
   geojson,         ///< the cells as polygons with their CellFields
   exodus,          ///< Exodus II of the cells, NetCDF, as TempestRemap reads it
   fesom,           ///< nod2d.out, and elem2d.out beside it: the triangles for FESOM, text
+  gmsh,            ///< Gmsh 4.1 of the triangles, text, with the parts of the boundary
+  schism,          ///< SCHISM's hgrid.gr3: the triangles, the boundary and depths, text
+  adcirc,          ///< ADCIRC's fort.14: the same
+  sms,             ///< SMS's .2dm: the same
   vtk,             ///< legacy VTK, read only: write() throws invalid_argument, for this and below
   icon,            ///< a grid of ICON, NetCDF, read only
   cf,              ///< cells with bounds as in the CF conventions, or of OASIS, NetCDF, read only
@@ -111,7 +115,9 @@ struct WriteOptions {
   DoubleVector site_density = {};
   /// Fields of the mesh, in its order. NetCDF formats store fields at cells, all but SCRIP at
   /// vertices, full MPAS at edges. VTK stores fields at cells and vertices, GeoJSON those at cells,
-  /// with one number for each. Other formats have none. A field that the format cannot store is
+  /// with one number for each. SCHISM, ADCIRC and SMS take one at cells named depth for
+  /// `site_depth`, and these and Gmsh one named open, which is above 0 there, for `open_sites`, as
+  /// their readers give them. Other formats have none. A field that the format cannot store is
   /// refused, and so is one with the name of something that it has of its own, such as areaCell. In
   /// names, NetCDF formats replace characters other than letters, digits and _.+-@ by _. Default:
   /// none.
@@ -120,10 +126,17 @@ struct WriteOptions {
   /// for them, see models(). Default: none.
   std::vector<FieldDimension> dimensions = {};
   /// FESOM's aux3d.out beside nod2d.out: the bounds of the layers, metres, 0 first and falling or
-  /// rising from there, at least 3, and by site the depth of the bottom, metres, of either sign.
+  /// rising from there, at least 3; `site_depth` is of either sign then.
   /// Default: empty, no such file.
   DoubleVector depth_levels = {};
-  DoubleVector site_depth = {}; ///< see `depth_levels`
+  /// n depths of the bottom by site, metres: see `depth_levels`; for schism, adcirc and sms
+  /// positive below the surface of the sea, finite. Default: none, which these three formats write
+  /// as 0.
+  DoubleVector site_depth = {};
+  /// Sites of the open boundary, in any order: see boundary_sites(). An outer edge between two of
+  /// them is open. All others are land, of the mainland or of an island. For gmsh, schism, adcirc
+  /// and sms; sites inside the mesh have no effect. Default: none.
+  Ids open_sites = {};
   /// How the mesh was made, one fact a line; the attribute `history` of NetCDF files. Default:
   /// empty, no attribute.
   std::string history = {};
@@ -137,6 +150,9 @@ struct WriteOptions {
 /// - .vtp, .vtu, .off, .ply, .msh, .geojson: the format of that name;
 /// - .g, .exo: exodus;
 /// - nod2d.out: fesom;
+/// - .gr3, .ll: schism;
+/// - .14, as in fort.14: adcirc;
+/// - .2dm: sms;
 /// - .txt, .tri: triangles. The ids are columns of the input of the triangulation, so that the file
 ///   belongs to the points that were triangulated. A site with duplicates has the id of its lowest
 ///   column;

@@ -63,6 +63,10 @@ private:
   std::unique_ptr<Files> files_;
 };
 
+/// Names of the fields of a file with depths and an open boundary, by which a conversion finds
+/// them.
+inline constexpr const char *depth_field = "depth", *open_field = "open";
+
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
 /// \throws Error file.
 bool is_netcdf_file(const std::string& path);

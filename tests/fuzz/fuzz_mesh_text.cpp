@@ -31,15 +31,22 @@ std::string write_parts(std::initializer_list<const char*> names, const std::uin
 
 } // namespace
 
-/// Meshes in several files of text. The first byte selects FESOM, MPI-SCVT, or points with .tri.
+/// Meshes in files of text that have no fuzzer of their own. The first byte selects FESOM,
+/// MPI-SCVT, points with .tri, SCHISM and ADCIRC, or SMS.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0)
     return 0;
   try {
-    if (data[0] % 3 == 0) {
+    if (data[0] % 5 > 2) {
+      const std::string path =
+          write_parts({data[0] % 5 == 3 ? "fort.14" : "a.2dm"}, data + 1, size - 1);
+      const MeshFile file = read_mesh_file(path);
+      fuzz::require_sound(file);
+      check_file(path, file);
+    } else if (data[0] % 5 == 0) {
       fuzz::require_sound(
           read_mesh_file(write_parts({"nod2d.out", "elem2d.out"}, data + 1, size - 1)));
-    } else if (data[0] % 3 == 1) {
+    } else if (data[0] % 5 == 1) {
       fuzz::require_sound(read_mesh_file(
           write_parts({"SaveVertices", "SaveTriangles", "SaveDensity"}, data + 1, size - 1)));
     } else {

@@ -552,8 +552,8 @@ TEST_CASE("unknown suffixes, folders that do not exist and full disks leave noth
   CHECK(std::string(error(scratch / "mesh").what())
             .ends_with(
                 "mesh: no suffix; a mesh file ends in .nc, .g, .exo, .vtp, .vtu, .vtk (read only), "
-                ".off, .ply, .msh, .geojson, .txt or .tri, or is named SaveVertices or "
-                "nod2d.out"));
+                ".off, .ply, .msh, .geojson, .txt, .tri, .gr3, .ll, .14 or .2dm, or is named "
+                "SaveVertices or nod2d.out"));
   CHECK(error(scratch / "absent/mesh.vtp").code() == ErrorCode::file);
   CHECK(code_of([&] { calotte::read_points(scratch / "absent.txt"); }) == ErrorCode::file);
   CHECK(code_of([&] { calotte::read_points(scratch.folder.string()); }) == ErrorCode::file);

@@ -42,10 +42,16 @@ const std::vector<ExpectedFormat> expected_formats{
     {Format::vtp_cells, "mesh.vtp", true},  {Format::vtu_cells, "mesh.vtu", true},
     {Format::off, "mesh.off", false},       {Format::ply, "mesh.ply", false},
     {Format::triangles, "mesh.tri", false}, {Format::mpi_scvt, "SaveVertices", false},
-    {Format::msh, "mesh.msh", false},       {Format::geojson, "mesh.geojson", true}};
+    {Format::msh, "mesh.msh", false},       {Format::geojson, "mesh.geojson", true},
+    {Format::gmsh, "mesh.msh", false},      {Format::schism, "hgrid.gr3", false},
+    {Format::adcirc, "fort.14", false},     {Format::sms, "mesh.2dm", false}};
 
 /// Whether the format holds the points as they are.
-bool holds_coordinates(Format format) { return format != Format::scrip && format != Format::esmf; }
+bool holds_coordinates(Format format) {
+  constexpr std::array angles{Format::scrip, Format::esmf, Format::schism, Format::adcirc,
+                              Format::sms};
+  return std::ranges::find(angles, format) == angles.end();
+}
 
 } // namespace
 
@@ -85,7 +91,8 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
   CHECK(message_of([&] { format_of("mesh.stl"); }) ==
         "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .g, .exo, .vtp, .vtu, .vtk "
         "(read only), "
-        ".off, .ply, .msh, .geojson, .txt or .tri, or is named SaveVertices or nod2d.out");
+        ".off, .ply, .msh, .geojson, .txt, .tri, .gr3, .ll, .14 or .2dm, or is named SaveVertices "
+        "or nod2d.out");
 }
 
 TEST_CASE("every format's file is read as the mesh that was written") {
@@ -283,7 +290,8 @@ TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as
     CAPTURE(int(kind.format));
     const std::string path = scratch / kind.file;
     const auto write = [&] { calotte::write(path, plane, {.format = kind.format}); };
-    if (kind.netcdf() || info_of(kind.format).cells || kind.format == Format::mpi_scvt) {
+    if (kind.netcdf() || info_of(kind.format).cells || kind.format == Format::mpi_scvt ||
+        !holds_coordinates(kind.format)) {
       CHECK(code_of(write) == ErrorCode::invalid_argument);
       continue;
     }

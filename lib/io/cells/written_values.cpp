@@ -50,6 +50,15 @@ void require_depths(const std::string& path, const WriteOptions& options, std::i
                   options.site_depth[i], i);
 }
 
+/// Requires depths of other models.
+void require_site_depths(const std::string& path, const DoubleVector& depths, std::int64_t sites) {
+  require_size(path, "the depth of the bottom", depths.size(), sites);
+  for (Eigen::Index i = 0; i < depths.size(); ++i)
+    if (!std::isfinite(depths[i]))
+      refuse_path(path, "the depth is {} at site {}; give a number of metres everywhere", depths[i],
+                  i);
+}
+
 void require_dimensions(const std::string& path, const MeshField& field) {
   for (const FieldDimension& dimension : field.dimensions)
     if (dimension.size < 1)
@@ -75,6 +84,12 @@ void require_values(const std::string& path, const MeshSizes& mesh, const WriteO
     require_density(path, options.site_density, mesh.sites);
   if (options.depth_levels.size() > 0)
     require_depths(path, options, mesh.sites);
+  else if (options.site_depth.size() > 0)
+    require_site_depths(path, options.site_depth, mesh.sites);
+  for (const std::int32_t site : options.open_sites)
+    if (site < 0 || site >= mesh.sites)
+      refuse_path(path, "{} is none of the {} sites; give open_sites of this mesh", site,
+                  mesh.sites);
   for (const MeshField& field : options.fields) {
     require_dimensions(path, field);
     const bool at_edges = field.location == FieldLocation::edges;
@@ -95,6 +110,8 @@ void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
     for (Eigen::Index i = 0; i < old.size(); ++i)
       (*values)[new_site[static_cast<std::size_t>(i)]] = old[i];
   }
+  for (std::int32_t& site : options.open_sites)
+    site = new_site[static_cast<std::size_t>(site)];
   mesh_detail::CanonicalOrder places;
   EdgeOrder edges;
   for (MeshField& field : options.fields) {

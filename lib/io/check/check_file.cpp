@@ -2,6 +2,7 @@
 #include <calotte/mesh_file.h>
 
 #include "io/cells/deviations.h"
+#include "io/check/coast_check.h"
 #include "io/check/grid_check.h"
 #include "io/check/mpas_check.h"
 #include "io/command.h"
@@ -19,7 +20,7 @@ namespace {
 /// \param file a MeshFile&&, whose memory is freed early, or a const MeshFile&.
 template <class File> std::vector<Deviation> find_deviations(const std::string& path, File&& file) {
   if (!is_netcdf(file))
-    return {};
+    return check_coast(path, file);
   const NetcdfReader stored(path);
   const FormatRow* const row = find_row(stored);
   if (row == nullptr)

@@ -5,6 +5,7 @@
 #include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
 #include "io/cells/model_grid.h"
+#include "io/formats/coastal_grid.h"
 #include "io/formats/formats.h"
 #include "mesh/orientation.h"
 
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <optional>
 #include <set>
@@ -77,6 +79,32 @@ Triangles read_elements(const std::string& path, std::int64_t nodes) {
     parse_ids(reader, row.data(), nodes, ids, 1);
   }
   return Eigen::Map<const Triangles>(ids.data(), 3, count);
+}
+
+/// Reads the depths of aux3d.out, if it is there and is of these nodes. It may have been left by
+/// another mesh.
+void read_depths(const std::string& path, RawMesh& raw) {
+  if (std::error_code error; !std::filesystem::is_regular_file(path, error))
+    return;
+  std::ifstream in = open_input(path);
+  LineReader reader(in, path);
+  std::vector<double> numbers;
+  for (std::string_view line; reader.next_content(line);) {
+    const std::optional<std::vector<double>> some = parse_numbers(line);
+    if (!some)
+      reader.fail("{} is no line of numbers; make the file again", in_quotes(line));
+    numbers.insert(numbers.end(), some->begin(), some->end());
+  }
+  const double levels = numbers.empty() ? 0 : numbers.front();
+  const auto nodes = raw.points.cols();
+  if (static_cast<double>(numbers.size()) != 1 + levels + static_cast<double>(nodes)) {
+    raw.ignored.push_back(std::string(fesom_depths_name) + ", of other nodes");
+    return;
+  }
+  std::vector<double> depth(numbers.end() - nodes, numbers.end());
+  for (double& value : depth)
+    value = std::abs(value);
+  raw.fields.push_back(make_depth_field(depth));
 }
 
 // ---- Channels
@@ -189,6 +217,7 @@ void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& 
 RawMesh read_fesom(const std::string& path) {
   std::vector<double> longitudes;
   RawMesh raw = read_nodes(path, longitudes);
+  read_depths(beside_nodes(path, fesom_depths_name), raw);
   raw.triangles = read_elements(beside_nodes(path, fesom_elements_name), raw.points.cols());
   require_no_channel(path, longitudes, raw);
   return raw;

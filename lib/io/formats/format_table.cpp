@@ -251,12 +251,17 @@ std::vector<FormatRow> make_table() {
        .write_polygons = polygons_to_stream<put_ply>,
        .read = from_stream<get_ply>,
        .reads_planes = true},
-      {.info = {Format::msh, "msh", {".msh"}, "JIGSAW; Gmsh 2 and 4 are read"},
+      {.info = {Format::msh, "msh", {".msh"}, "JIGSAW"},
        .label = "MSH",
        .planes = flat,
        .write_mesh = to_stream<put_msh>,
        .read = from_stream<get_msh>,
        .reads_planes = true},
+      {.info = {Format::gmsh, "gmsh", {".msh"}, "Gmsh 4.1; 2 and 4 are read"},
+       .label = "MSH",
+       .planes = flat,
+       .holds = {.boundary = true},
+       .write_mesh = to_stream<put_gmsh>},
       {.info = {Format::geojson, "geojson", {".geojson"}, "GeoJSON of cells", true},
        .label = "GeoJSON",
        .planes = clipped,
@@ -287,7 +292,22 @@ std::vector<FormatRow> make_table() {
       {.info = {Format::fesom, "fesom", {std::string(fesom_nodes_name)}, "FESOM"},
        .label = "FESOM",
        .write_mesh = to_files<write_fesom>,
-       .read = from_files<read_fesom>}};
+       .read = from_files<read_fesom>},
+      {.info = {Format::schism, "schism", {".gr3", ".ll"}, "SCHISM"},
+       .label = "SCHISM",
+       .holds = {.boundary = true, .depth = true},
+       .write_mesh = to_files<write_schism>,
+       .read = from_stream<get_coastal>},
+      {.info = {Format::adcirc, "adcirc", {".14"}, "ADCIRC"},
+       .label = "ADCIRC",
+       .holds = {.boundary = true, .depth = true},
+       .write_mesh = to_files<write_adcirc>,
+       .read = from_stream<get_coastal>},
+      {.info = {Format::sms, "sms", {".2dm"}, "SMS"},
+       .label = "SMS",
+       .holds = {.boundary = true, .depth = true},
+       .write_mesh = to_stream<put_sms>,
+       .read = from_stream<get_sms>}};
   for (FormatRow& row : rows)
     if (row.write_polygons != nullptr)
       row.polygons_as = row.info.format;
@@ -371,7 +391,8 @@ void refuse_field(const std::string& path, Format format, const MeshField& field
 std::string triangle_formats(const std::string& last) {
   std::vector<std::string> names;
   for (const FormatRow& row : format_table())
-    if (row.planes.whole && row.info.points)
+    if (row.planes.whole && row.info.points &&
+        std::ranges::find(names, row.info.names[0]) == names.end())
       names.push_back(row.info.names[0]);
   return listed(names, last);
 }

@@ -35,6 +35,12 @@ struct Planes {
   bool periodic = false; ///< meshes of a periodic plane
 };
 
+/// What a format holds of a coast besides its triangles.
+struct CoastParts {
+  bool boundary = false; ///< which parts of the boundary are open, see WriteOptions::open_sites
+  bool depth = false;    ///< depths at the sites, see WriteOptions::site_depth
+};
+
 /// A file that is being read.
 struct InputFile {
   const std::string& path;
@@ -50,6 +56,7 @@ struct FormatRow {
   std::int64_t bytes_a_site = 100;                 ///< approximate; used for progress only
   FieldFault (*fault)(const MeshField&) = nullptr; ///< of a field; null if it stores none
 
+  CoastParts holds = {};
   void (*write_mesh)(const std::string&, WrittenMesh, const WriteOptions&) = nullptr;
   /// Writes cells of any shape.
   void (*write_polygons)(const std::string&, const CellGrid&, const WriteOptions&) = nullptr;

@@ -36,6 +36,8 @@ void put_ply(const Sink& sink, const Mesh& mesh);
 void put_ply(const Sink& sink, const Polygons& polygons);
 void put_triangles_text(const Sink& sink, const Mesh& mesh);
 void put_msh(const Sink& sink, const Mesh& mesh);
+void put_gmsh(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_sms(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
 void put_vtp(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
 void put_vtu(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
 void put_vtp_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
@@ -51,6 +53,8 @@ RawMesh get_vtk_legacy(std::istream& in, const std::string& name); ///< .vtk
 RawMesh get_off(std::istream& in, const std::string& name);
 RawMesh get_ply(std::istream& in, const std::string& name);
 RawMesh get_msh(std::istream& in, const std::string& name);
+RawMesh get_coastal(std::istream& in, const std::string& name); ///< of SCHISM and ADCIRC
+RawMesh get_sms(std::istream& in, const std::string& name);
 RawMesh get_geojson(std::istream& in, const std::string& name);
 
 /// Reads triangles whose ids are below `points`.
@@ -65,6 +69,8 @@ void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptio
 void write_esmf(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 void write_exodus(const std::string& path, const CellGrid& grid, const WriteOptions& options);
 void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_schism(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_adcirc(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 
 class NetcdfReader;

@@ -3,45 +3,53 @@
 
 #include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
+#include "io/formats/coastal_grid.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <istream>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
 // Meshes of Gmsh (Geuzaine and Remacle, Int. J. Numer. Methods Eng. 79, 2009; the formats MSH 2 and
 // 4 of its manual, as text) consist of sections from $Name to $EndName. Nodes and elements have
-// numbers of their own. Lines and points of the geometry are elements, too.
+// numbers of their own. Lines and points of the geometry are elements, too. Lines of the physical
+// group "open" are an open boundary, and others land.
 
 namespace calotte::io_detail {
 namespace {
 
-enum class Shape { triangle, less, more };
+enum class Shape { triangle, line, less, more };
 
-/// Classifies the types of the manual. The corners of a triangle precede its other nodes.
+/// Classifies the types of the manual. The corners of a triangle, and the ends of a line, precede
+/// their other nodes.
 Shape classify(std::int64_t type) {
-  constexpr std::array<std::int64_t, 8> triangles{2, 9, 20, 21, 22, 23, 24, 25},
-      lines_and_points{1, 8, 15, 26, 27, 28, 62, 63};
+  constexpr std::array<std::int64_t, 8> triangles{2, 9, 20, 21, 22, 23, 24, 25};
+  constexpr std::array<std::int64_t, 7> lines{1, 8, 26, 27, 28, 62, 63};
+  constexpr std::int64_t point = 15;
   const auto is_in = [&](const auto& types) {
     return std::find(types.begin(), types.end(), type) != types.end();
   };
-  return is_in(triangles) ? Shape::triangle : is_in(lines_and_points) ? Shape::less : Shape::more;
+  return is_in(triangles) ? Shape::triangle
+         : is_in(lines)   ? Shape::line
+         : type == point  ? Shape::less
+                          : Shape::more;
 }
 
 class GmshFile {
 public:
   GmshFile(std::istream& in, const std::string& name) : reader_(in, name) {}
 
-  RawMesh read() {
+  CoastalGrid read() {
     for (std::string_view line; reader_.next_content(line);)
       section(trimmed(line));
     if (corners_.empty())
       fail_file(reader_.name(),
                 "a file of Gmsh without triangles; mesh its surfaces (gmsh -2), and "
                 "save all elements (Mesh.SaveAll=1)");
-    return raw();
+    return grid();
   }
 
 private:
@@ -61,6 +69,10 @@ private:
                    "(Mesh.MshFileVersion)");
     if (name == "$MeshFormat")
       format();
+    else if (name == "$PhysicalNames")
+      physical_names();
+    else if (name == "$Entities")
+      entities();
     else if (name == "$Nodes")
       nodes();
     else if (name == "$Elements")
@@ -103,18 +115,48 @@ private:
     version_ = version;
   }
 
-  /// Calls block(kind, lines) for each block of a section of version 4.
+  /// Finds the groups that are open boundaries.
+  void physical_names() {
+    const std::int64_t lines = require_count(columns<std::int64_t, 1>(next("$PhysicalNames"))[0]);
+    for (std::int64_t i = 0; i < lines; ++i) {
+      const std::string_view line = next("$PhysicalNames");
+      const auto [dimension, group] = columns<std::int64_t, 2>(line);
+      if (dimension == 1 && line.find("\"open\"") != std::string_view::npos)
+        open_groups_.insert(group);
+    }
+  }
+
+  /// Finds the curves of open groups: the number of a curve, six bounds, the number of its groups
+  /// and these.
+  void entities() {
+    const auto counts = columns<std::int64_t, 4>(next("$Entities"));
+    for (std::int64_t i = 0; i < require_count(counts[0]); ++i)
+      next("$Entities");
+    for (std::int64_t i = 0; i < require_count(counts[1]); ++i) {
+      std::array<double, 8 + most_tags> row{};
+      const Columned read = parse_columns(next("$Entities"), std::ssize(row), row.data());
+      const std::int64_t end = std::min<std::int64_t>(
+          read.columns, 8 + static_cast<std::int64_t>(std::clamp(row[7], 0.0, 1.0 * most_tags)));
+      for (std::int64_t k = 8; k < end; ++k)
+        if (open_groups_.contains(static_cast<std::int64_t>(row[static_cast<std::size_t>(k)])))
+          open_curves_.insert(static_cast<std::int64_t>(row[0]));
+    }
+    for (std::int64_t i = 0; i < require_count(counts[2]) + require_count(counts[3]); ++i)
+      next("$Entities");
+  }
+
+  /// Calls block(kind, lines, entity) for each block of a section of version 4.
   template <class Block> void blocks(const std::string& name, const Block& block) {
     const std::int64_t count = require_count(columns<std::int64_t, 2>(next(name))[0]);
     for (std::int64_t i = 0; i < count; ++i) {
       const auto head = columns<std::int64_t, 4>(next(name));
-      block(head[2], require_count(head[3]));
+      block(head[2], require_count(head[3]), head[version_ >= 4.1 ? 1 : 0]);
     }
   }
 
   void nodes() {
     if (version_ >= 4.1) {
-      blocks("$Nodes", [&](std::int64_t /*parametric*/, std::int64_t lines) {
+      blocks("$Nodes", [&](std::int64_t /*parametric*/, std::int64_t lines, std::int64_t) {
         const std::size_t first = coordinates_.size() / 3;
         for (std::int64_t i = 0; i < lines; ++i)
           number_node(columns<std::int64_t, 1>(next("$Nodes"))[0],
@@ -133,7 +175,7 @@ private:
       }
     };
     if (version_ >= 4)
-      blocks("$Nodes", [&](std::int64_t, std::int64_t lines) { read_lines(lines); });
+      blocks("$Nodes", [&](std::int64_t, std::int64_t lines, std::int64_t) { read_lines(lines); });
     else
       read_lines(require_count(columns<std::int64_t, 1>(next("$Nodes"))[0]));
   }
@@ -152,9 +194,9 @@ private:
 
   void elements() {
     if (version_ >= 4) {
-      blocks("$Elements", [&](std::int64_t type, std::int64_t lines) {
+      blocks("$Elements", [&](std::int64_t type, std::int64_t lines, std::int64_t entity) {
         for (std::int64_t i = 0; i < lines; ++i)
-          element(next("$Elements"), type, 1);
+          element(next("$Elements"), type, 1, open_curves_.contains(entity));
       });
       return;
     }
@@ -164,12 +206,14 @@ private:
       const auto [number, type, tags] = columns<std::int64_t, 3>(line);
       if (tags < 0 || tags > std::int64_t{most_tags})
         reader_.fail("{} is not a number of tags", tags);
-      element(line, type, 3 + static_cast<std::size_t>(tags));
+      const bool open = tags > 0 && open_groups_.contains(columns<std::int64_t, 4>(line)[3]);
+      element(line, type, 3 + static_cast<std::size_t>(tags), open);
     }
   }
 
   /// \param first the column of its first node.
-  void element(std::string_view line, std::int64_t type, std::size_t first) {
+  /// \param open whether a line is an open boundary.
+  void element(std::string_view line, std::int64_t type, std::size_t first, bool open) {
     const Shape shape = classify(type);
     if (shape == Shape::more)
       reader_.fail("an element of type {}{}; only triangles are read, so mesh the surfaces with "
@@ -177,14 +221,18 @@ private:
                    type, type == 3 ? ", a quadrangle" : "");
     if (shape == Shape::less)
       return;
-    const auto row = columns<std::int64_t, 3 + most_tags + 3>(line, first + 3);
-    corners_.insert(corners_.end(), row.begin() + static_cast<std::ptrdiff_t>(first),
-                    row.begin() + static_cast<std::ptrdiff_t>(first + 3));
+    const std::size_t nodes = shape == Shape::line ? 2 : 3;
+    const auto row = columns<std::int64_t, 3 + most_tags + 3>(line, first + nodes);
+    std::vector<std::int64_t>& ends = shape == Shape::triangle ? corners_
+                                      : open                   ? open_ends_
+                                                               : other_ends_;
+    ends.insert(ends.end(), row.begin() + static_cast<std::ptrdiff_t>(first),
+                row.begin() + static_cast<std::ptrdiff_t>(first + nodes));
   }
 
   /// Only the nodes of triangles are sites: others belong to the geometry, such as the centre of a
   /// sphere.
-  RawMesh raw() const {
+  CoastalGrid grid() const {
     std::vector<std::int32_t> site(coordinates_.size() / 3, -1);
     const auto index_of = [&](std::int64_t node) {
       const auto found = index_of_.find(node);
@@ -199,14 +247,36 @@ private:
     std::int32_t sites = 0;
     for (std::int32_t& id : site)
       id = id < 0 ? -1 : sites++;
-    RawMesh raw{.points = Points3(3, sites)};
+    CoastalGrid grid{.raw = {.points = Points3(3, sites)}, .boundary = {}};
+    RawMesh& raw = grid.raw;
     for (std::size_t k = 0; k < site.size(); ++k)
       if (site[k] >= 0)
         raw.points.col(site[k]) = Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * k);
     raw.triangles.resize(3, std::ssize(corners_) / 3);
     for (std::size_t k = 0; k < corners_.size(); ++k)
       raw.triangles.data()[k] = site[index_of(corners_[k])];
-    return raw;
+    for (const bool open : {true, false})
+      add_lines(open, site, grid.boundary);
+    if (!open_ends_.empty())
+      raw.fields.push_back(make_open_field(grid.boundary, sites));
+    return grid;
+  }
+
+  /// Adds the lines between sites, each as a list of its own.
+  /// \param site by index of a node; -1 for none.
+  void add_lines(bool open, const std::vector<std::int32_t>& site, NodeLists& boundary) const {
+    const std::vector<std::int64_t>& ends = open ? open_ends_ : other_ends_;
+    const auto site_of = [&](std::int64_t node) {
+      const auto found = index_of_.find(node);
+      return found == index_of_.end() || found->second >= site.size() ? -1 : site[found->second];
+    };
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+      const std::int32_t from = site_of(ends[k]), to = site_of(ends[k + 1]);
+      if (from >= 0 && to >= 0)
+        boundary.lists.push_back(
+            {.kind = open ? BoundaryKind::open : BoundaryKind::land, .sites = {from, to}});
+    }
+    boundary.given = !boundary.lists.empty();
   }
 
   static constexpr std::size_t most_tags = 8;
@@ -217,12 +287,16 @@ private:
   std::unordered_map<std::int64_t, std::size_t> index_of_; ///< by number of a node: its index
   std::vector<double> coordinates_;                        ///< x y z of each node
   std::vector<std::int64_t> corners_;                      ///< numbers of the nodes of triangles
+  std::vector<std::int64_t> open_ends_, other_ends_;       ///< those of lines, two each
+  std::set<std::int64_t> open_groups_, open_curves_;
 };
 
 } // namespace
 
 bool is_gmsh(std::istream& in) { return in.peek() == '$'; }
 
-RawMesh get_gmsh(std::istream& in, const std::string& name) { return GmshFile(in, name).read(); }
+CoastalGrid get_gmsh(std::istream& in, const std::string& name) {
+  return GmshFile(in, name).read();
+}
 
 } // namespace calotte::io_detail

@@ -4,6 +4,8 @@
 #include "io/formats/gmsh.h"
 #include "io/shapes/jigsaw.h"
 
+#include <utility>
+
 namespace calotte::io_detail {
 
 void put_msh(const Sink& sink, const Mesh& mesh) {
@@ -46,7 +48,7 @@ void put_msh(const Sink& sink, const Mesh& mesh) {
 
 RawMesh get_msh(std::istream& in, const std::string& name) {
   if (is_gmsh(in))
-    return get_gmsh(in, name);
+    return std::move(get_gmsh(in, name).raw);
   const JigsawFile file = read_jigsaw(in, name);
   if (file.points.cols() == 0)
     fail_file(name, "no POINT section; give a mesh of the sphere, with points");

@@ -7,6 +7,7 @@
 #include "io/cells/polygons.h"
 #include "io/cells/written_fields.h"
 #include "io/cells/written_values.h"
+#include "io/command.h"
 #include "io/formats/formats.h"
 
 #include "base/monitor.h"
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace calotte {
 namespace io_detail {
@@ -41,6 +43,31 @@ Numbering choose_numbering(const WriteOptions& options) {
   if (options.numbering != Numbering::by_format)
     return options.numbering;
   return info_of(options.format).netcdf ? Numbering::curve : Numbering::input;
+}
+
+bool is_coast_field(const MeshField& field, Format format) {
+  const CoastParts& holds = find_row(format).holds;
+  return field.location == FieldLocation::cells && field.count() == 1 &&
+         ((holds.depth && field.name == depth_field) ||
+          (holds.boundary && field.name == open_field));
+}
+
+void take_coast_fields(WriteOptions& options) {
+  for (const MeshField& field : options.fields) {
+    if (!is_coast_field(field, options.format))
+      continue;
+    if (field.name == depth_field && options.site_depth.size() == 0)
+      options.site_depth = field.values;
+    if (field.name != open_field || options.open_sites.size() > 0)
+      continue;
+    std::vector<std::int32_t> sites;
+    for (std::int32_t i = 0; i < field.values.size(); ++i)
+      if (field.values[i] > 0)
+        sites.push_back(i);
+    options.open_sites = Eigen::Map<const Ids>(sites.data(), std::ssize(sites));
+  }
+  std::erase_if(options.fields,
+                [&](const MeshField& field) { return is_coast_field(field, options.format); });
 }
 
 ProgressCallback progress_from(const ProgressCallback& progress, double from) {
@@ -81,7 +108,8 @@ void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
 
 /// The mesh in a file's numbering, and the options' values with it.
 Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions& options) {
-  if (options.site_density.size() == 0 && options.site_depth.size() == 0 && options.fields.empty())
+  if (options.site_density.size() == 0 && options.site_depth.size() == 0 &&
+      options.open_sites.size() == 0 && options.fields.empty())
     return renumbered(mesh, numbering);
   Mesh whole = mesh;
   whole.site_of_input = themselves(mesh.points.cols());
@@ -116,6 +144,7 @@ void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions&
   constexpr double numbered = 0.2; // share of the time if cells are renumbered
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
+  take_coast_fields(resolved);
   require_options(path, resolved);
   require_mesh(path, mesh.mesh, resolved.format);
   require_values(path, count_sizes(mesh.mesh), resolved);
@@ -164,6 +193,7 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   require_planar_format(path, surface, resolved.format);
+  take_coast_fields(resolved);
   if (options.site_density.size() == 0 && !options.density.uniform())
     resolved.site_density = evaluate(options.density, mesh.points, surface); // given by site
   resolved.density = {};

@@ -15,6 +15,13 @@ namespace calotte::io_detail {
 /// \throws Error invalid_argument, for a radius out of range or an ill-formed density.
 void require_options(const std::string& path, const WriteOptions& options);
 
+/// Whether the format has a place of its own for a field of depths, or of an open boundary.
+bool is_coast_field(const MeshField& field, Format format);
+
+/// Moves such fields to the options' depths and open sites, unless these are given.
+/// \param options of a known format.
+void take_coast_fields(WriteOptions& options);
+
 /// The order of the cells in a file of the options' format, which is known.
 Numbering choose_numbering(const WriteOptions& options);
 

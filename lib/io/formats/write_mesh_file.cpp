@@ -196,8 +196,10 @@ WritePlan plan(const std::string& path, const MeshFile& file, const WriteOptions
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool asked = i < options.fields.size();
     const bool replaced = is_replaced(file, all[i], format, polygons);
-    const FieldFault fault =
-        replaced ? FieldFault::name : find_fault_on(file, all[i], format, polygons);
+    const FieldFault fault = replaced ? FieldFault::name
+                             : !polygons && is_coast_field(all[i], format)
+                                 ? FieldFault::none
+                                 : find_fault_on(file, all[i], format, polygons);
     if (fault == FieldFault::none)
       out.options.fields.push_back(std::move(all[i]));
     else if (asked)
