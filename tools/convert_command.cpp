@@ -2,9 +2,9 @@
 #include "commands.h"
 #include "help/help.h"
 #include "io/command.h"
+#include "options/coast_option.h"
 #include "options/config_option.h"
 #include "options/density_option.h"
-#include "options/depth_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
@@ -24,6 +24,7 @@
 #include <array>
 #include <iostream>
 #include <utility>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
@@ -33,7 +34,7 @@ struct ConvertRequest {
   std::shared_ptr<DensityWords> density;
   std::shared_ptr<FormatWords> format;
   std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
-  DepthWords depths;                   ///< for FESOM
+  CoastWords coast;                    ///< for models of the coastal ocean
   std::shared_ptr<std::string> config;
   std::string output;
 };
@@ -43,12 +44,12 @@ void require_request(const ConvertRequest& request) {
   const MeshSource& source = *request.source;
   const Format format = options_of(*request.format, request.output)
                             .format; // throws for a file that cannot be written
-  if (request.depths.given() && format != Format::fesom)
-    refuse_path(request.output, "--depth-levels applies to FESOM's nod2d.out; leave it out");
+  require_coast(request.coast, request.output, format);
   const WidthWords& widths = request.density->widths;
-  require_outputs({{"mesh", request.output}},
-                  {source.path, source.points, widths.file, widths.raster,
-                   request.domain->file.value_or(""), *request.config});
+  std::vector<std::string> inputs = files_of(request.coast);
+  inputs.insert(inputs.end(), {source.path, source.points, widths.file, widths.raster,
+                               request.domain->file.value_or(""), *request.config});
+  require_outputs({{"mesh", request.output}}, inputs);
   if (source.points.empty() && (source.path == "-" || holds_triangles(source.path)))
     refuse(message("{} holds triangles without points; give the points with --points FILE, or, if "
                    "the file holds points, triangulate them with calotte delaunay",
@@ -77,7 +78,7 @@ WriteOptions write_options(const ConvertRequest& request, const Density& density
   options.density = density;
   if (is_mpas(options.format) && lacks_density(request, file))
     options.site_density = spacing_density(file);
-  set_depths(request.depths, file, options);
+  set_coast(request.coast, file, options);
   options.history = "calotte " CALOTTE_VERSION " convert: " + request.source->path;
   return options;
 }
@@ -143,24 +144,6 @@ MeshFile read_input(const ConvertRequest& request) {
   return file;
 }
 
-/// Makes an open mesh one that FESOM reads, where it is written for it.
-EarReport remove_ears(const ConvertRequest& request, MeshFile& file) {
-  if (!file.sphere() || file.mesh->closed() ||
-      options_of(*request.format, request.output).format != Format::fesom)
-    return {};
-  WithoutEars rest = without_ears(std::move(file));
-  file = std::move(rest.file);
-  return rest.removed;
-}
-
-std::string describe_ears(const ConvertRequest& request, const EarReport& ears) {
-  if (ears.triangles == 0 && ears.sites == 0)
-    return "";
-  return message("{}: without {} triangles of fewer than two neighbours, and without the {} nodes "
-                 "that no triangle has then: FESOM refuses them\n",
-                 request.output, ears.triangles, ears.sites);
-}
-
 void run(const ConvertRequest& request) {
   require_request(request);
   const Density density = density_of(*request.density);
@@ -169,11 +152,13 @@ void run(const ConvertRequest& request) {
     Progress progress;
     progress.stage("reading " + request.source->path);
     MeshFile file = read_input(request);
-    const EarReport ears = remove_ears(request, file);
+    const std::string ears =
+        remove_ears(request.output, options_of(*request.format, request.output).format, file);
     WriteOptions options = write_options(request, density, file);
     options.progress = progress.writing(request.output);
     const WrittenFields written = write(request.output, file, options);
-    words = changes_of(*request.source, file) + describe_ears(request, ears) +
+    words = changes_of(*request.source, file) + ears +
+            missing_depths(request.output, options, file) +
             remarks(request, file, options, written) +
             message("{}: {}\n", request.output, describe_mesh(file));
     if (file.polygons)
@@ -199,7 +184,7 @@ void add_convert(CLI::App& app) {
   request->domain = add_bounded_domain(*command);
   request->format =
       add_format(*command, {.radius = "the radius of the points if all lie on one sphere, else 1"});
-  add_depths(*command, request->depths);
+  add_coast(*command, request->coast);
   request->density = add_density(*command);
   request->config = add_config(*command);
   set_help(*command,

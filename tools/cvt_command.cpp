@@ -96,6 +96,7 @@ struct CvtOutcome {
   std::int64_t cells = 0;
   BadShapes shapes;                ///< of the mesh, where no polish ended the run
   std::string grid;                ///< the cells of the file, in words
+  std::string remarks;             ///< on the file: lines, or ""
   std::optional<ModelGates> gates; ///< of the model that is to read the file
   std::string worst_position;      ///< of the cell of the worst shape: " (at ...)", or ""
   double area = 0;                 ///< of the surface
@@ -275,23 +276,40 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress,
                  residual_words(request, report), *stop.tolerance, stop.max_iterations));
 }
 
-/// Whether a cell is one polygon is known only now. If not, the triangles keep the run's result.
+/// Whether a cell is one polygon, and whether a model takes the boundary, is known only now. If
+/// not, the triangles keep the run's result.
 [[noreturn]] void keep_triangles(const std::string& path, Mesh mesh, const Error& error) {
   const std::string kept = path + ".vtp";
-  mesh.surface = Surface::plane();
+  if (!mesh.surface.is_sphere())
+    mesh.surface = Surface::plane();
   write(kept, mesh);
   throw Error(error.code(), message("{}: {}; {} has the triangles", path, error.what(), kept),
               error.index());
 }
 
-GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
-                       const WriteOptions& options) {
+/// Makes the mesh one for models of the coastal ocean, and adds what their formats hold besides.
+/// \returns remarks, each a line.
+std::string prepare_coast(const CvtRequest& request, Mesh& mesh, WriteOptions& options) {
+  MeshFile file;
+  options.format = format_of(request.mesh, options.format);
+  if (!request.coast.given() && options.format != Format::fesom)
+    return missing_depths(request.mesh, options, file);
+  file.mesh = mesh; // which a caller needs where an error occurs
+  const std::string ears = remove_ears(request.mesh, options.format, file);
+  set_coast(request.coast, file, options);
+  mesh = *std::move(file.mesh);
+  return ears + missing_depths(request.mesh, options, file);
+}
+
+GridFile write_file_of(const CvtRequest& request, const Run& run, CvtOutcome& outcome,
+                       WriteOptions options) {
+  Mesh& mesh = outcome.mesh;
   try {
+    outcome.remarks = prepare_coast(request, mesh, options);
     return write_grid(request.mesh, std::move(mesh), run.input.recipe, run.schedule, options);
   } catch (const Error& error) {
-    const Surface& surface = run.schedule.recipe.surface;
-    if (error.code() == ErrorCode::invalid_argument && !surface.is_sphere() &&
-        surface.is_bounded() && mesh.points.cols() > 0)
+    if (error.code() == ErrorCode::invalid_argument && run.schedule.recipe.surface.is_bounded() &&
+        mesh.points.cols() > 0)
       keep_triangles(request.mesh, std::move(mesh), error);
     throw;
   }
@@ -314,8 +332,7 @@ void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome
   WriteOptions options = write_options(request);
   options.history = history_of(request, made.stop, run.configuration, outcome.report);
   options.progress = progress.writing(request.mesh);
-  outcome.grid =
-      describe_cells(run.input.recipe, write_file_of(request, run, outcome.mesh, options));
+  outcome.grid = describe_cells(run.input.recipe, write_file_of(request, run, outcome, options));
   compare_with_demands(request, outcome, progress);
   if (!request.report.empty())
     write_file(request.report,
@@ -404,13 +421,14 @@ void run(CvtRequest request) {
   const CvtStop& stop = schedule.recipe.stop;
   if (outcome.signal != 0)
     finish_interrupted(request, outcome);
-  std::cout << message(
-                   "{}: {}, {}{}\n", request.mesh, outcome.grid,
-                   verdict(stop, outcome.report, outcome.shapes),
-                   outcome.before > 0
-                       ? message(", resumed after {}",
-                                 counted(static_cast<std::int64_t>(outcome.before), "iteration"))
-                       : "") +
+  std::cout << outcome.remarks +
+                   message("{}: {}, {}{}\n", request.mesh, outcome.grid,
+                           verdict(stop, outcome.report, outcome.shapes),
+                           outcome.before > 0
+                               ? message(", resumed after {}",
+                                         counted(static_cast<std::int64_t>(outcome.before),
+                                                 "iteration"))
+                               : "") +
                    models_of(request);
   warn_of_result(request, schedule, outcome);
   const std::string beyond = outcome.gates ? failure_of(*outcome.gates) : "";

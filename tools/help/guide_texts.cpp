@@ -42,6 +42,7 @@ constexpr const char* models = R"(Files that a model reads: --for names the mode
   calotte cvt --cell-width 60km --for mpas-atmosphere -o earth.nc
   calotte cvt --cell-width 120km --for mpas-ocean -o earth.nc
   calotte convert mesh.nc nod2d.out --for fesom
+  calotte cvt --region sea.geojson --boundary generators --cell-width 60km -o hgrid.gr3
   calotte partition earth.nc --parts 64
 
 --for takes mpas-atmosphere, mpas-ocean, mpas-sw and fesom. Other models: calotte help formats.
@@ -95,6 +96,7 @@ ETOPO's.
   calotte cull earth.nc --raster bathymetry.nc -o ocean.nc
   calotte interpolate bathymetry.nc ocean.nc -o depth.nc
   calotte convert ocean.nc nod2d.out --for fesom --depth-levels 0,10,30,100,1000 --depth 4000
+  calotte convert sea.vtp hgrid.gr3 --depth bathymetry.nc --open box=-20,30,-15,60
 
 Heights are metres or km upwards, and below 0 is sea; the attribute positive = "down" tells
 depths. Widths by depth are the rule by-depth: calotte help widths.
@@ -368,7 +370,9 @@ const std::vector<Guide>& guides() {
        "measures.md first-grid.md"},
       {"partitions metis graph decomposition graph.info gpmetis process", parts, "models.md"},
       {"remap remapping regrid weight conservative field interpolation", remap, "interpolation.md"},
-      {"conversion format ugrid scrip esmf exodus vtk gmsh icon", formats_guide, "formats.md"},
+      {"conversion format ugrid scrip esmf exodus vtk gmsh icon schism adcirc sms hgrid fort.14 "
+       "2dm",
+       formats_guide, "formats.md"},
       {"mpas-tools jigsawpy compass polaris", jigsaw, "jigsaw.md"},
       {"finer refined nested coarser change local zoom", local, "changes.md"},
       {"voronoi triangulation scvt lloyd algorithm paper stripack centroidal triangle", algorithms,

@@ -187,6 +187,7 @@ void add_end(CLI::App& command, CvtRequest& request) {
 void add_files(CLI::App& command, CvtRequest& request) {
   command.add_option("-o,--output", request.mesh, help_of_output())->type_name("FILE")->required();
   request.format = add_format(command);
+  add_coast(command, request.coast);
   command
       .add_option("--report", request.report, "Write the data of every iteration to this JSON file")
       ->type_name("FILE");

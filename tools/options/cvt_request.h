@@ -2,6 +2,7 @@
 #pragma once
 
 #include "options/budget.h"
+#include "options/coast_option.h"
 #include "options/delaunay_options.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
@@ -46,6 +47,7 @@ struct CvtRequest {
 
   std::optional<std::string> units; ///< --units, of widths in messages
   std::shared_ptr<FormatWords> format;
+  CoastWords coast; ///< for models of the coastal ocean
   std::string mesh, report;
   std::string checkpoint, resume;
   std::string options;           ///< all that are given, for a checkpoint

@@ -48,9 +48,6 @@ void require_region_format(const CvtRequest& request, const WriteOptions& option
   if (!request.part.limited_area && info_of(format).cells)
     refuse_path(request.mesh, "this format has cells, which are open along the region's boundary; "
                               "give --limited-area, or a file of triangles such as .vtp");
-  if (format == Format::fesom)
-    refuse_path(request.mesh, "FESOM takes no triangle with a single neighbour, as a boundary may "
-                              "have; write a .vtp file, and convert it to nod2d.out");
 }
 
 /// The name of the file that is written beside a full MPAS file; empty for other formats.
@@ -100,6 +97,7 @@ void require_request(const CvtRequest& request) {
   if (planar(request))
     require_plane(request, options);
   require_region_format(request, options);
+  require_coast(request.coast, request.mesh, format_of(request.mesh, options.format));
   const bool of_memory =
       !request.budget.empty() && budget_of(request.budget, request.memory).bytes.has_value();
   if (!of_memory && !(request.memory == ModelMemory()))
@@ -109,13 +107,10 @@ void require_request(const CvtRequest& request) {
   if (request.units && !request.density->widths.in_km())
     refuse("--units is the unit of widths; leave it out, or give --cell-width");
   const WidthWords& widths = request.density->widths;
-  const std::vector<std::string> inputs{request.points,
-                                        request.fixed,
-                                        widths.file,
-                                        widths.raster,
-                                        request.domain->file.value_or(""),
-                                        *request.config,
-                                        region_file(request.part.region)};
+  std::vector<std::string> inputs = files_of(request.coast);
+  inputs.insert(inputs.end(), {request.points, request.fixed, widths.file, widths.raster,
+                               request.domain->file.value_or(""), *request.config,
+                               region_file(request.part.region)});
   require_outputs({{"mesh", request.mesh},
                    {"graph of the mesh", graph_of(request.mesh, options.format)},
                    {"report", request.report},
