@@ -280,7 +280,7 @@ TEST_CASE("files of other programs: remarks, blanks, types that are left out, an
 
 TEST_CASE("Gmsh: lines of the group open are open, in versions 2 and 4") {
   const Scratch scratch;
-  const std::string names = "$PhysicalNames\n2\n1 7 \"open\"\n1 8 \"coast\"\n$EndPhysicalNames\n";
+  const std::string names = "$PhysicalNames\n2\n1 7 \"open\"\n1 8 \"land\"\n$EndPhysicalNames\n";
   const std::string nodes = "$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
   const MeshFile two =
       read_text(scratch / "a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + nodes +
@@ -289,7 +289,7 @@ TEST_CASE("Gmsh: lines of the group open are open, in versions 2 and 4") {
   CHECK(field_of(two, "open")->values == DoubleVector{{1, 1, 0}});
   CHECK(rules_violated(scratch / "a.msh").empty());
   const std::string four_nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n";
-  read_text(scratch / "a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + four_nodes +
+  read_text(scratch / "a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + four_nodes +
                                    "$Elements\n3\n1 1 2 7 1 2 4\n2 2 2 9 1 1 2 3\n3 2 2 9 1 1 3 4\n"
                                    "$EndElements\n");
   CHECK(rules_violated(scratch / "a.msh").size() == 1);

@@ -9,14 +9,16 @@
 #include <array>
 #include <cmath>
 #include <istream>
-#include <set>
+#include <map>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 // Meshes of Gmsh (Geuzaine and Remacle, Int. J. Numer. Methods Eng. 79, 2009; the formats MSH 2 and
 // 4 of its manual, as text) consist of sections from $Name to $EndName. Nodes and elements have
 // numbers of their own. Lines and points of the geometry are elements, too. Lines of the physical
-// group "open" are an open boundary, and others land.
+// group "open" are an open boundary, those of "land" and "island" a coast.
 
 namespace calotte::io_detail {
 namespace {
@@ -37,6 +39,12 @@ Shape classify(std::int64_t type) {
          : type == point  ? Shape::less
                           : Shape::more;
 }
+
+/// The names of physical groups, in quotes.
+constexpr std::array<std::pair<const char*, BoundaryKind>, 3> boundary_groups{
+    {{"\"open\"", BoundaryKind::open},
+     {"\"land\"", BoundaryKind::land},
+     {"\"island\"", BoundaryKind::island}}};
 
 class GmshFile {
 public:
@@ -115,18 +123,26 @@ private:
     version_ = version;
   }
 
-  /// Finds the groups that are open boundaries.
+  using Kinds = std::map<double, BoundaryKind>; ///< by the number of a group, or of a curve
+
+  static std::optional<BoundaryKind> kind_of(const Kinds& kinds, double number) {
+    const auto found = kinds.find(number);
+    return found == kinds.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// Finds the groups of curves that are parts of the boundary.
   void physical_names() {
     const std::int64_t lines = require_count(columns<std::int64_t, 1>(next("$PhysicalNames"))[0]);
     for (std::int64_t i = 0; i < lines; ++i) {
       const std::string_view line = next("$PhysicalNames");
-      const auto [dimension, group] = columns<std::int64_t, 2>(line);
-      if (dimension == 1 && line.find("\"open\"") != std::string_view::npos)
-        open_groups_.insert(group);
+      const auto [dimension, group] = columns<double, 2>(line);
+      for (const auto& [name, kind] : boundary_groups)
+        if (dimension == 1 && line.find(name) != std::string_view::npos)
+          groups_[group] = kind;
     }
   }
 
-  /// Finds the curves of open groups: the number of a curve, six bounds, the number of its groups
+  /// Finds the curves of these groups: the number of a curve, six bounds, the number of its groups
   /// and these.
   void entities() {
     const auto counts = columns<std::int64_t, 4>(next("$Entities"));
@@ -135,11 +151,12 @@ private:
     for (std::int64_t i = 0; i < require_count(counts[1]); ++i) {
       std::array<double, 8 + most_tags> row{};
       const Columned read = parse_columns(next("$Entities"), std::ssize(row), row.data());
-      const std::int64_t end = std::min<std::int64_t>(
-          read.columns, 8 + static_cast<std::int64_t>(std::clamp(row[7], 0.0, 1.0 * most_tags)));
-      for (std::int64_t k = 8; k < end; ++k)
-        if (open_groups_.contains(static_cast<std::int64_t>(row[static_cast<std::size_t>(k)])))
-          open_curves_.insert(static_cast<std::int64_t>(row[0]));
+      const double groups = std::clamp(row[7], 0.0, static_cast<double>(most_tags));
+      const auto end = std::min<std::size_t>(static_cast<std::size_t>(read.columns),
+                                             8 + static_cast<std::size_t>(groups));
+      for (std::size_t k = 8; k < end; ++k)
+        if (const auto kind = kind_of(groups_, row[k]))
+          curves_[row[0]] = *kind;
     }
     for (std::int64_t i = 0; i < require_count(counts[2]) + require_count(counts[3]); ++i)
       next("$Entities");
@@ -196,7 +213,7 @@ private:
     if (version_ >= 4) {
       blocks("$Elements", [&](std::int64_t type, std::int64_t lines, std::int64_t entity) {
         for (std::int64_t i = 0; i < lines; ++i)
-          element(next("$Elements"), type, 1, open_curves_.contains(entity));
+          element(next("$Elements"), type, 1, kind_of(curves_, static_cast<double>(entity)));
       });
       return;
     }
@@ -206,28 +223,29 @@ private:
       const auto [number, type, tags] = columns<std::int64_t, 3>(line);
       if (tags < 0 || tags > std::int64_t{most_tags})
         reader_.fail("{} is not a number of tags", tags);
-      const bool open = tags > 0 && open_groups_.contains(columns<std::int64_t, 4>(line)[3]);
-      element(line, type, 3 + static_cast<std::size_t>(tags), open);
+      element(line, type, 3 + static_cast<std::size_t>(tags),
+              tags > 0 ? kind_of(groups_, columns<double, 4>(line)[3]) : std::nullopt);
     }
   }
 
   /// \param first the column of its first node.
-  /// \param open whether a line is an open boundary.
-  void element(std::string_view line, std::int64_t type, std::size_t first, bool open) {
+  /// \param kind of a line, if it is a part of the boundary.
+  void element(std::string_view line, std::int64_t type, std::size_t first,
+               std::optional<BoundaryKind> kind) {
     const Shape shape = classify(type);
     if (shape == Shape::more)
       reader_.fail("an element of type {}{}; only triangles are read, so mesh the surfaces with "
                    "triangles alone",
                    type, type == 3 ? ", a quadrangle" : "");
-    if (shape == Shape::less)
+    if (shape == Shape::less || (shape == Shape::line && !kind))
       return;
     const std::size_t nodes = shape == Shape::line ? 2 : 3;
     const auto row = columns<std::int64_t, 3 + most_tags + 3>(line, first + nodes);
-    std::vector<std::int64_t>& ends = shape == Shape::triangle ? corners_
-                                      : open                   ? open_ends_
-                                                               : other_ends_;
-    ends.insert(ends.end(), row.begin() + static_cast<std::ptrdiff_t>(first),
-                row.begin() + static_cast<std::ptrdiff_t>(first + nodes));
+    if (shape == Shape::line)
+      lines_.push_back({reader_.number(), *kind, {row[first], row[first + 1]}});
+    else
+      corners_.insert(corners_.end(), row.begin() + static_cast<std::ptrdiff_t>(first),
+                      row.begin() + static_cast<std::ptrdiff_t>(first + 3));
   }
 
   /// Only the nodes of triangles are sites: others belong to the geometry, such as the centre of a
@@ -255,29 +273,35 @@ private:
     raw.triangles.resize(3, std::ssize(corners_) / 3);
     for (std::size_t k = 0; k < corners_.size(); ++k)
       raw.triangles.data()[k] = site[index_of(corners_[k])];
-    for (const bool open : {true, false})
-      add_lines(open, site, grid.boundary);
-    if (!open_ends_.empty())
+    grid.boundary = boundary(site);
+    const auto is_open = [](const Line& line) { return line.kind == BoundaryKind::open; };
+    if (std::ranges::any_of(lines_, is_open))
       raw.fields.push_back(make_open_field(grid.boundary, sites));
     return grid;
   }
 
-  /// Adds the lines between sites, each as a list of its own.
+  /// The lines between sites, each as a list of its own.
   /// \param site by index of a node; -1 for none.
-  void add_lines(bool open, const std::vector<std::int32_t>& site, NodeLists& boundary) const {
-    const std::vector<std::int64_t>& ends = open ? open_ends_ : other_ends_;
+  NodeLists boundary(const std::vector<std::int32_t>& site) const {
     const auto site_of = [&](std::int64_t node) {
       const auto found = index_of_.find(node);
       return found == index_of_.end() || found->second >= site.size() ? -1 : site[found->second];
     };
-    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
-      const std::int32_t from = site_of(ends[k]), to = site_of(ends[k + 1]);
+    NodeLists all{.given = !lines_.empty()};
+    for (const Line& line : lines_) {
+      const std::int32_t from = site_of(line.ends[0]), to = site_of(line.ends[1]);
       if (from >= 0 && to >= 0)
-        boundary.lists.push_back(
-            {.kind = open ? BoundaryKind::open : BoundaryKind::land, .sites = {from, to}});
+        all.lists.push_back({.line = line.number, .kind = line.kind, .sites = {from, to}});
     }
-    boundary.given = !boundary.lists.empty();
+    return all;
   }
+
+  /// A line of the boundary.
+  struct Line {
+    std::int64_t number; ///< of the line of text
+    BoundaryKind kind;
+    std::array<std::int64_t, 2> ends; ///< numbers of nodes
+  };
 
   static constexpr std::size_t most_tags = 8;
   static constexpr std::int64_t most_entries = std::int64_t{1} << 30;
@@ -287,8 +311,8 @@ private:
   std::unordered_map<std::int64_t, std::size_t> index_of_; ///< by number of a node: its index
   std::vector<double> coordinates_;                        ///< x y z of each node
   std::vector<std::int64_t> corners_;                      ///< numbers of the nodes of triangles
-  std::vector<std::int64_t> open_ends_, other_ends_;       ///< those of lines, two each
-  std::set<std::int64_t> open_groups_, open_curves_;
+  std::vector<Line> lines_;
+  Kinds groups_, curves_;
 };
 
 } // namespace

@@ -13,7 +13,7 @@ namespace calotte::io_detail {
 bool is_gmsh(std::istream& in);
 
 /// The triangles of a file of Gmsh, and their nodes in the order of the file; the lines between
-/// these, each as a list of two nodes, which is open where its physical group is named "open".
+/// these in the physical groups open, land and island, each as a list of two nodes.
 /// \pre is_gmsh(). \throws Error parse that names the line, for text that is no such file; for
 /// binary files and version 1; for elements other than triangles, lines and points.
 CoastalGrid get_gmsh(std::istream& in, const std::string& name);
