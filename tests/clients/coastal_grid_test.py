@@ -176,7 +176,8 @@ def gmsh_of(path):
         assert len(row) == 10 + int(row[9])
     head, body = sections["Nodes"][0].split(), sections["Nodes"][2:]
     count = int(head[1])
-    assert head == ["1", str(count), "1", str(count)] and [int(tag) for tag in body[:count]] == list(range(1, count + 1))
+    assert head == ["1", str(count), "1", str(count)]
+    assert [int(tag) for tag in body[:count]] == list(range(1, count + 1))
     positions = np.array([[float(word) for word in line.split()] for line in body[count:]])
     blocks, total, first, last = map(int, sections["Elements"][0].split())
     assert (first, last) == (1, total)

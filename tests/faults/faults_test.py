@@ -33,7 +33,8 @@ BEFORE = b"as it was\n"
 FORMATS = {"mpas": "o.nc", "mpas-minimal": "o.nc", "ugrid": "o.nc", "ugrid-triangles": "o.nc", "scrip": "o.nc",
            "esmf": "o.nc", "vtp": "o.vtp", "vtu": "o.vtu", "vtp-cells": "o.vtp", "vtu-cells": "o.vtu", "off": "o.off",
            "ply": "o.ply", "triangles": "o.tri", "mpi-scvt": "SaveVertices", "msh": "o.msh", "geojson": "o.geojson",
-           "exodus": "o.g", "fesom": "nod2d.out", "gmsh": "o.msh", "schism": "o.gr3", "adcirc": "o.14", "sms": "o.2dm"}
+           "exodus": "o.g", "fesom": "nod2d.out", "gmsh": "o.msh", "schism": "o.gr3", "adcirc": "o.14",
+           "sms": "o.2dm"}
 
 
 def call(arguments, folder, fault=None):

@@ -1351,7 +1351,8 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
         dimensions, of which one has the size n. Those before it have the name Time in a NetCDF file,
         those after it levels. An xarray.DataArray gives the names, with its unit and its long_name.
         Raises Error for a format that does not hold them, and for the name of a variable that the
-        format has of its own, such as latCell.
+        format has of its own, such as latCell. SCHISM, ADCIRC and SMS take depth, metres down; these
+        and Gmsh take open, which is above 0 at the sites of the open boundary.
     order: of the cells: "curve", along a space-filling curve; or "input", that of the mesh, which
         arrays have beside it. Default: curve in NetCDF files, input in others and for meshes of
         refine() and coarsen().
