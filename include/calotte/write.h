@@ -164,12 +164,13 @@ struct WriteOptions {
 /// its bits.
 ///
 /// A mesh of the plane keeps the order of its sites. All planes support triangles; one with a
-/// period mpas and mpas_minimal; others vtp, vtu, off, ply and msh, at z = 0; and a part of the
-/// plane, which clips the cells, mpas, ugrid, vtp_cells, vtu_cells and geojson. An MPAS file has
-/// the boundary that voronoi() describes, with 0 for what is missing. NetCDF files call the unit of
-/// the points metre, GeoJSON has x and y instead of longitude and latitude. Fields at vertices are
-/// not written to formats of clipped cells, whose corners are not those of the triangles.
-/// \param mesh as delaunay() or read_mesh() returns it: on the sphere columns of any norm,
+/// period mpas and mpas_minimal; others vtp, vtu, off, ply, msh and gmsh, at z = 0; and a part of
+/// the plane, which clips the cells, mpas, ugrid, vtp_cells, vtu_cells and geojson. An MPAS file
+/// has the boundary that voronoi() describes, with 0 for what is missing. NetCDF files call the
+/// unit of the points metre, GeoJSON has x and y instead of longitude and latitude. Fields at
+/// vertices are not written to formats of clipped cells, whose corners are not those of the
+/// triangles. \param mesh as delaunay() or read_mesh() returns it: on the sphere columns of any
+/// norm,
 ///        triangles counter-clockwise seen from outside.
 /// \throws Error invalid_argument for an unknown suffix, a format that does not support the mesh, a
 ///         radius out of range, an ill-formed density, or ids out of range; in the plane for
