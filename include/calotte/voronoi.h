@@ -22,13 +22,13 @@ namespace calotte {
 /// in the unit of the points and areas in its square, and z = 0. In a periodic plane points lie in
 /// the box, and distances are those between nearest copies.
 ///
-/// In a bounded plane the boundary clips the cells. The vertices are the circumcentres inside the
+/// In a bounded surface the boundary clips the cells. The vertices are the circumcentres inside the
 /// domain, then the ends of Voronoi edges on the boundary and its corners, ring by ring with the
 /// domain to the left. Edges along the boundary have one cell; they follow the edges between two
 /// cells, of which a pair may have several. A missing cell or edge has the id -1.
 struct Voronoi {
-  /// The surface that the cells cover: that of the mesh, on the sphere without its rings. In a
-  /// plane the rings clip the cells.
+  /// The surface that the cells cover: that of the mesh, whose rings clip the cells. Of a part
+  /// that voronoi(mesh, mask) selects on the sphere, it is the sphere.
   Surface surface = {};
 
   Points3 cells; ///< 3 x n: the sites; unit columns on the sphere
@@ -67,27 +67,30 @@ struct Voronoi {
 };
 
 /// Computes the tessellation of a mesh's surface by the cells of its sites: of the sphere, of a
-/// plane with two periods, or of the part of the plane that the surface's rings bound, which clip
-/// the cells. Locations, lengths and areas are accurate to rounding; the areas sum to that of the
-/// surface within 1e-12. For sites of the sphere closer than about 1e-12, and for triangles as
-/// flat, only the sums are accurate. Unit columns keep their bits. The result has the same bits for
-/// any number of threads. The function runs in the caller's task arena. Time: O(n log n) for the
-/// cells, and for a boundary its edges and crossings times the degree of a cell.
+/// plane with two periods, or of the part of the sphere or of a plane that the surface's rings
+/// bound, which clip the cells. Locations, lengths and areas are accurate to rounding; the areas
+/// sum to that of the surface within 1e-12. For sites of the sphere closer than about 1e-12, and
+/// for triangles as flat, only the sums are accurate. Unit columns keep their bits. The result has
+/// the same bits for any number of threads. The function runs in the caller's task arena. Time: O(n
+/// log n) for the cells, and for a boundary its edges and crossings times the degree of a cell.
 ///
-/// On the sphere rings have no effect. Sites in a hemisphere have cells that reach round the far
-/// side of the sphere. Their vertices there are the circumcentres of further triangles, the far
+/// On the sphere without rings, sites in a hemisphere have cells that reach round the far side of
+/// the sphere. Their vertices there are the circumcentres of further triangles, the far
 /// side of the sites' convex hull as points of the unit sphere, which cells_on_vertex and
 /// edges_on_vertex contain, too: 2n - 4 in all. These run clockwise seen from outside the sphere.
 /// \param mesh the Delaunay triangulation of its points: on the sphere directions of any norm, in a
-///        part of the plane inside it or on its boundary. The function does not check the Delaunay
-///        property; check() does.
+///        bounded surface inside it or on its boundary. In a part of the sphere an open mesh, such
+///        as a run's, may lack triangles: its points are triangulated anew. The function does not
+///        check the Delaunay property; check() does.
 /// \throws Error invalid_argument. In all cases: ids, neighbours or points that do not form a
 ///         triangulation, naming the first triangle or site; more than 2^29 sites, whose edges
-///         exceed int32. On the sphere: an open mesh whose boundary is not the hull of its sites.
-///         In a plane without rings: other than two periods between 1e-30 and 1e30; a site outside
-///         the box; a box so narrow that two cells share two edges. In a part of the plane, with
-///         the index: the first point outside; the first cell that is no single polygon, because
-///         the boundary cuts it into several parts or encloses an island in it.
+///         exceed int32. On the sphere without rings: an open mesh whose boundary is not the hull
+///         of its sites. In a part of the sphere: as delaunay(), for points of an open mesh. In a
+///         plane without rings: other than two periods between 1e-30 and 1e30; a site outside the
+///         box; a box so narrow that two cells share two edges. In a bounded surface, with the
+///         index: the first point outside; the first cell that is no single polygon, because the
+///         boundary cuts it into several parts or encloses an island in it; coastal_cells() makes
+///         one of it.
 Voronoi voronoi(const Mesh& mesh);
 
 /// A part of the tessellation: the cells of some sites, with their edges and vertices. A cell that

@@ -240,13 +240,14 @@ private:
   }
 
   void add_corners() {
-    for (const std::vector<Vec2>& ring : outline_->rings()) {
+    for (const std::vector<Vec3>& ring : outline_->rings()) {
       const std::size_t n = ring.size();
+      const auto at = [&](std::size_t k) { return Vec2{ring[k % n].x, ring[k % n].y}; };
       std::vector<std::int32_t> of_ring(n, -1);
       for (std::size_t k = 0; k < n; ++k)
-        if (orientation(ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]) < 0) {
+        if (orientation(at(k + n - 1), at(k), at(k + 1)) < 0) {
           of_ring[k] = raster_size() + static_cast<std::int32_t>(corners_.size());
-          corners_.push_back({ring[k], -1, -1});
+          corners_.push_back({at(k), -1, -1});
         }
       for (std::size_t k = 0; k < n; ++k)
         if (of_ring[k] >= 0) {

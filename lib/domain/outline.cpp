@@ -151,13 +151,13 @@ Outline::Outline(const Surface::Rings& rings) {
   orient();
 }
 
-std::vector<std::vector<Vec2>> Outline::rings() const {
-  std::vector<std::vector<Vec2>> rings;
+std::vector<std::vector<Vec3>> Outline::rings() const {
+  std::vector<std::vector<Vec3>> rings;
   for (std::int64_t r = 0; r < edges_.size(); ++r) {
     const std::span<const Edge> ring = edges_[r];
-    std::vector<Vec2> corners;
+    std::vector<Vec3> corners;
     for (const Edge& edge : ring)
-      corners.push_back(edge.from);
+      corners.push_back({edge.from.x, edge.from.y, 0});
     if (compare(ring[0].to, ring[1].from) != 0) // orient() turned the edges, not their order
       std::reverse(corners.begin(), corners.end());
     rings.push_back(std::move(corners));

@@ -3,6 +3,7 @@
 
 #include "base/lists.h"
 #include "base/points.h"
+#include "base/vec3.h"
 #include "domain/room.h"
 #include "exact/plane_predicates.h"
 
@@ -36,8 +37,8 @@ public:
   const Box2& box() const { return box_; } ///< the bounding box
   double area() const { return area_; }
   const std::vector<Edge>& edges() const { return edges_.items; } ///< ring by ring
-  /// The corners of each ring in the order that has the domain to the left.
-  std::vector<std::vector<Vec2>> rings() const;
+  /// The corners of each ring in the order that has the domain to the left; z = 0.
+  std::vector<std::vector<Vec3>> rings() const;
 
   /// The position of a point relative to the boundary; exact.
   Side side(const Vec2& point) const;

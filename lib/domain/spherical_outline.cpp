@@ -14,7 +14,7 @@ SphericalOutline::SphericalOutline(const Surface::Rings& rings)
 
 SphericalOutline::SphericalOutline(const Rings& rings)
     : tree_(rings.arcs.items), cells_(simple(rings, tree_).arcs.items, rings.corner_of(0)),
-      area_(area_inside(cells_)) {
+      ring_begin_(rings.arcs.begin), area_(area_inside(cells_)) {
   for (std::size_t r = 1; r < static_cast<std::size_t>(rings.arcs.size()); ++r)
     if (!cells_.inside_is_left(rings.corner_of(r)))
       refuse_region(message("it is to the left of ring 0 and to the right of ring {}; give rings "
@@ -22,6 +22,16 @@ SphericalOutline::SphericalOutline(const Rings& rings)
                             "counter-clockwise, a hole clockwise",
                             r),
                     static_cast<std::int64_t>(r));
+}
+
+std::vector<std::vector<Vec3>> SphericalOutline::rings() const {
+  std::vector<std::vector<Vec3>> rings;
+  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
+    std::vector<Vec3>& corners = rings.emplace_back();
+    for (std::int32_t e = ring_begin_[r]; e < ring_begin_[r + 1]; ++e)
+      corners.push_back(edges()[static_cast<std::size_t>(e)].from);
+  }
+  return rings;
 }
 
 } // namespace calotte::domain_detail

@@ -24,6 +24,8 @@ public:
 
   double area() const { return area_; }                            ///< steradians
   const std::vector<Edge>& edges() const { return cells_.arcs(); } ///< ring by ring
+  /// The corners of each ring, with the region to the left; unit vectors.
+  std::vector<std::vector<Vec3>> rings() const;
 
   /// The position of a direction relative to the boundary; exact for the stored corners. Directions
   /// whose norm is not 1 up to round-off are rounded to unit vectors first, as the corners are.
@@ -49,6 +51,7 @@ private:
 
   ArcTree tree_;
   SideCells cells_;
+  std::vector<std::int32_t> ring_begin_; ///< in the edges
   double area_;
 };
 

@@ -60,6 +60,7 @@ public:
   // ---- Measures
 
   static Vec3 wrapped(const Vec3& x) { return x; }
+  static Vec3 up(const Vec3& x) { return x; }
   static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
   /// The midpoint of the shorter arc; a unit vector.
   static Vec3 midpoint(const Vec3& a, const Vec3& b);
@@ -137,6 +138,7 @@ public:
   Vec3 wrapped(const Vec3& x) const {
     return {wrapped(x.x, period_.x), wrapped(x.y, period_.y), x.z};
   }
+  static Vec3 up(const Vec3&) { return {0, 0, 1}; }
   /// The offset from a to the copy of b nearest to a. offset(b, a) is the opposite.
   Vec3 offset(const Vec3& a, const Vec3& b) const {
     return {b.x - a.x + periods_between(a.x, b.x, period_.x) * period_.x,
@@ -214,6 +216,7 @@ concept Space = requires(const S space, const Vec3& x, const typename S::Positio
   /// near.
   { space.is_short(p, p) } -> std::same_as<bool>;
   { space.wrapped(x) } -> std::same_as<Vec3>;           ///< the copy in the half-open period
+  { space.up(x) } -> std::same_as<Vec3>;                ///< the unit normal of the surface
   { space.offset(x, x) } -> std::same_as<Vec3>;         ///< the chord to the nearest copy
   { space.midpoint(x, x) } -> std::same_as<Vec3>;       ///< the same bits in either order
   { space.area_term(x, x, x) } -> std::same_as<double>; ///< twice the area, or nearly; signed

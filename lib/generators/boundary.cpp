@@ -6,7 +6,6 @@
 #include "density/demanded_spacing.h"
 #include "domain/along_boundary.h"
 #include "domain/outline.h"
-#include "domain/rings.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 #include "generators/boundary.h"
@@ -26,18 +25,10 @@ using base_detail::require;
 /// The rings of a boundary as segments with the surface to their left.
 template <Space S> std::vector<std::vector<Segment>> list_segments(const Surface& surface) {
   std::vector<std::vector<Segment>> all;
-  if constexpr (S::on_sphere) {
-    const Rings rings = rings_of(surface.rings());
-    for (std::int64_t r = 0; r < rings.arcs.size(); ++r)
-      all.emplace_back(rings.arcs[r].begin(), rings.arcs[r].end());
-  } else {
-    for (const std::vector<Vec2>& ring : outline_of<S>(surface)->rings()) {
-      std::vector<Segment>& segments = all.emplace_back();
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Vec2 &from = ring[k], &to = ring[(k + 1) % ring.size()];
-        segments.push_back({{from.x, from.y, 0}, {to.x, to.y, 0}});
-      }
-    }
+  for (const std::vector<Vec3>& ring : outline_of<S>(surface)->rings()) {
+    std::vector<Segment>& segments = all.emplace_back();
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      segments.push_back({ring[k], ring[(k + 1) % ring.size()]});
   }
   return all;
 }

@@ -144,8 +144,8 @@ std::vector<bool> clipped_cells(const Mesh& mesh) {
   if (surface.is_whole_sphere())
     return clipped;
   require(!surface.is_sphere(),
-          "the mesh is one of a region of the sphere, which clips no cells; give one "
-          "of the plane or of the whole sphere");
+          "the mesh is one of a region of the sphere, whose cells this does not know; give one of "
+          "the plane or of the whole sphere");
   require_finite_plane(surface);
   if (!surface.is_bounded() || clipped.empty())
     return clipped;

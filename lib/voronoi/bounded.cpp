@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/delaunay.h>
 #include <calotte/voronoi.h>
 
 #include "base/lists.h"
@@ -6,10 +7,12 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/clipped_cell.h"
-#include "domain/outline.h"
 #include "domain/surface.h"
+#include "exact/space.h"
 #include "mesh/ids.h"
 #include "voronoi/boundary_walk.h"
+#include "voronoi/cell_parts.h"
+#include "voronoi/far_side.h"
 #include "voronoi/groups.h"
 #include "voronoi/open.h"
 #include "voronoi/stages.h"
@@ -20,10 +23,10 @@
 #include <utility>
 #include <vector>
 
-// The Voronoi cells of a bounded plane. The boundary's vertices form closed walks in the
-// triangulation (boundary_walk.h). The winding number of these walks around a triangle tells
-// whether its circumcentre is inside, and on each Voronoi edge starts and ends alternate: rounding
-// cannot make cells that do not fit together.
+// The Voronoi cells of a part of a plane or of the sphere. The boundary's vertices form closed
+// walks in the triangulation (boundary_walk.h). The winding number of these walks around a triangle
+// tells whether its circumcentre is inside, and on each Voronoi edge starts and ends alternate:
+// rounding cannot make cells that do not fit together.
 
 namespace calotte::voronoi_detail {
 namespace {
@@ -103,7 +106,17 @@ struct Crossing {
   std::int32_t vertex; ///< number in the whole boundary
 };
 
+/// The position of a point on the Voronoi edge between two sites, growing with `from` to the left.
+double position_between(const Plane&, const Vec3& from, const Vec3& to, const Vec3& point) {
+  return cross(to - from, point - from).z;
+}
+double position_between(const Sphere&, const Vec3& from, const Vec3& to, const Vec3& point) {
+  return std::atan2(dot(cross(to - from, point - from), point),
+                    norm(to - from) * dot(from + to, point));
+}
+
 /// Finds the crossings, in their order on each edge.
+template <Space S>
 std::vector<Crossing> find_crossings(const std::vector<std::vector<BoundaryVertex>>& rings,
                                      const std::vector<DelaunayEdge>& edges, const Points3& sites) {
   std::vector<Crossing> crossings;
@@ -117,9 +130,9 @@ std::vector<Crossing> find_crossings(const std::vector<std::vector<BoundaryVerte
       const auto edge = std::lower_bound(
           edges.begin(), edges.end(), std::pair(low, high),
           [](const DelaunayEdge& e, const auto& key) { return std::pair(e.low, e.high) < key; });
-      const Vec2 from{sites(0, low), sites(1, low)}, to{sites(0, high), sites(1, high)};
       crossings.push_back({static_cast<std::size_t>(edge - edges.begin()), at.before == low,
-                           cross(to - from, at.point - from), own});
+                           position_between(S(), column(sites, low), column(sites, high), at.point),
+                           own});
     }
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
     return std::tie(a.edge, a.along, a.vertex) < std::tie(b.edge, b.along, b.vertex);
@@ -141,10 +154,47 @@ void add(std::array<Beyond, 3>& list, const Beyond& beyond) {
     }
 }
 
+/// The circumcentre, computed from the corner across from the longest side, which keeps the most
+/// digits.
+Vec3 circumcentre_of(const Plane&, const Points3& sites, const Triangles& triangles,
+                     std::int64_t t) {
+  const auto at = [&](int i) {
+    const std::int32_t site = triangles(i % 3, t);
+    return Vec2{sites(0, site), sites(1, site)};
+  };
+  int corner = 0;
+  double longest = -1;
+  for (int i = 0; i < 3; ++i)
+    if (const Vec2 side = at(i + 2) - at(i + 1); dot(side, side) > longest) {
+      longest = dot(side, side);
+      corner = i;
+    }
+  const Vec2 from = at(corner);
+  const Vec2 point = from + circumcentre(at(corner + 1) - from, at(corner + 2) - from);
+  return {point.x, point.y, 0};
+}
+
+/// The circumcentre; of a triangle of the far side, which runs clockwise, there.
+Vec3 circumcentre_of(const Sphere& sphere, const Points3& sites, const Triangles& triangles,
+                     std::int64_t t) {
+  return sphere.circumcentre(column(sites, triangles(0, t)), column(sites, triangles(1, t)),
+                             column(sites, triangles(2, t)));
+}
+
+/// A triangle outside the domain by the crossings of its edges; none without crossings.
+std::int32_t outer_triangle(const std::vector<DelaunayEdge>& edges,
+                            const std::vector<int>& starts) {
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (starts[e] != 0)
+      return starts[e] > 0 ? edges[e].right : edges[e].left;
+  return none;
+}
+
 /// The winding number of the boundary around each triangle, 0 or 1 by the rings' orientation. To
 /// the left of an edge it is larger by one for each crossing that starts there.
 std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges,
-                                          const std::vector<int>& starts, const Mesh& mesh) {
+                                          const std::vector<int>& starts, const Mesh& mesh,
+                                          const Surface& surface) {
   constexpr std::int8_t unknown = -1;
   std::vector<std::int8_t> inside(static_cast<std::size_t>(mesh.triangles.cols()), unknown);
   std::vector<std::array<Beyond, 3>> beyond(inside.size());
@@ -167,6 +217,11 @@ std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges
       set(std::max(left, right), left >= 0 ? starts[e] : -starts[e]);
     }
   }
+  if (known.empty()) { // the triangles cover the sphere
+    const std::int32_t outer = outer_triangle(edges, starts);
+    const Vec3 first = circumcentre_of(Sphere(), mesh.points, mesh.triangles, 0);
+    set(std::max(outer, 0), outer < 0 && surface.contains({first.x, first.y, first.z}) ? 1 : 0);
+  }
   while (!known.empty()) {
     const std::int32_t triangle = known.back();
     known.pop_back();
@@ -177,32 +232,7 @@ std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges
   return inside;
 }
 
-/// The circumcentre, computed from the corner across from the longest side, which keeps the most
-/// digits.
-Vec3 circumcentre_of(const Points3& sites, const Triangles& triangles, std::int64_t t) {
-  const auto at = [&](int i) {
-    const std::int32_t site = triangles(i % 3, t);
-    return Vec2{sites(0, site), sites(1, site)};
-  };
-  int corner = 0;
-  double longest = -1;
-  for (int i = 0; i < 3; ++i)
-    if (const Vec2 side = at(i + 2) - at(i + 1); dot(side, side) > longest) {
-      longest = dot(side, side);
-      corner = i;
-    }
-  const Vec2 from = at(corner);
-  const Vec2 point = from + circumcentre(at(corner + 1) - from, at(corner + 2) - from);
-  return {point.x, point.y, 0};
-}
-
 // ---- Cells
-
-/// A side of a cell, counter-clockwise.
-struct ClippedSide {
-  std::int32_t cell, from, to;
-  std::int32_t beyond; ///< the cell across, or none
-};
 
 /// Adds the sides along Voronoi edges. On each edge, starts and ends of parts alternate.
 void add_inner_sides(const std::vector<DelaunayEdge>& edges, const std::vector<Crossing>& crossings,
@@ -247,51 +277,44 @@ void add_boundary_sides(const std::vector<std::vector<BoundaryVertex>>& rings,
 }
 
 /// Appends the vertices of a cell, starting with the end of the side towards the lowest neighbour.
-/// \param sides of the cell, sorted by their first vertex.
-void append_cell(const ClippedSide* begin, const ClippedSide* end,
-                 std::vector<std::int32_t>& vertices) {
-  const ClippedSide* first = begin;
-  for (const ClippedSide* side = begin; side != end; ++side)
-    if (side->beyond >= 0 && (first->beyond < 0 || side->beyond < first->beyond))
-      first = side;
-  std::int64_t count = 0;
-  const ClippedSide* side = first;
+/// \param begin, end of the cell's sides, which are sorted by their first vertex.
+void append_cell(const std::vector<ClippedSide>& sides, const std::vector<std::int64_t>& begin,
+                 std::int32_t cell, std::vector<std::int32_t>& vertices) {
+  const std::int64_t from = begin[static_cast<std::size_t>(cell)],
+                     end = begin[static_cast<std::size_t>(cell) + 1];
+  const auto at = [&](std::int64_t s) -> const ClippedSide& {
+    return sides[static_cast<std::size_t>(s)];
+  };
+  if (from == end)
+    refuse_cell(cell);
+  std::int64_t first = from;
+  for (std::int64_t s = from; s < end; ++s)
+    if (at(s).beyond >= 0 && (at(first).beyond < 0 || at(s).beyond < at(first).beyond))
+      first = s;
+  std::int64_t count = 0, side = first;
   do {
-    vertices.push_back(side->to);
-    side = std::lower_bound(begin, end, side->to, [](const ClippedSide& s, std::int32_t vertex) {
-      return s.from < vertex;
-    });
-    if (side == end || side->from != vertices.back() || ++count > end - begin)
-      refuse_cell(begin->cell);
+    vertices.push_back(at(side).to);
+    side = side_from(sides, begin, cell, at(side).to);
+    if (side < 0 || ++count > end - from)
+      refuse_cell(cell);
   } while (side != first);
-  if (count != end - begin)
-    refuse_cell(begin->cell);
+  if (count != end - from)
+    refuse_cell(cell);
 }
 
-void set_cells(std::vector<ClippedSide> sides, std::int64_t cells, Voronoi& out) {
-  sort_in_groups(
-      cells, [](const ClippedSide& side) { return side.cell; },
-      [](const ClippedSide& a, const ClippedSide& b) {
-        return std::tie(a.from, a.to) < std::tie(b.from, b.to);
-      },
-      sides);
+void set_cells(std::vector<ClippedSide> sides, std::int32_t cells, Voronoi& out) {
+  const std::vector<std::int64_t> begin = sort_sides(cells, sides);
   std::vector<std::int32_t> vertices;
   out.vertices_on_cell.begin.resize(cells + 1);
-  const ClippedSide* side = sides.data();
-  const ClippedSide* const end = side + sides.size();
   for (std::int32_t i = 0; i < cells; ++i) {
     out.vertices_on_cell.begin[i] = std::ssize(vertices);
-    const ClippedSide* const first = side;
-    while (side != end && side->cell == i)
-      ++side;
-    if (first == side)
-      refuse_cell(i);
-    append_cell(first, side, vertices);
+    append_cell(sides, begin, i, vertices);
   }
   out.vertices_on_cell.begin[cells] = std::ssize(vertices);
   out.vertices_on_cell.items = Eigen::Map<const Ids>(vertices.data(), std::ssize(vertices));
 }
 
+template <Space S>
 void set_vertices(const Mesh& mesh, const std::vector<std::int32_t>& vertex_of_triangle,
                   const std::vector<std::vector<BoundaryVertex>>& rings, std::int32_t inner,
                   Voronoi& out) {
@@ -301,48 +324,69 @@ void set_vertices(const Mesh& mesh, const std::vector<std::int32_t>& vertex_of_t
   out.vertices.resize(3, count);
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
     if (const std::int32_t v = vertex_of_triangle[static_cast<std::size_t>(t)]; v >= 0)
-      set_column(out.vertices, v, circumcentre_of(mesh.points, mesh.triangles, t));
+      set_column(out.vertices, v, circumcentre_of(S(), out.cells, mesh.triangles, t));
   std::int64_t v = inner;
   for (const auto& ring : rings)
     for (const BoundaryVertex& at : ring)
-      set_column(out.vertices, v++, {at.point.x, at.point.y, 0});
+      set_column(out.vertices, v++, at.point);
 }
 
-Voronoi bounded(const Mesh& mesh, const Outline& outline) {
+/// The triangles in which every site has a closed star, on the sphere; in a plane the mesh itself.
+Mesh surrounded(const Sphere&, const Mesh& mesh) {
+  Mesh whole = mesh.closed() ? mesh : delaunay(mesh.points);
+  require(whole.points.cols() == mesh.points.cols(),
+          "the mesh has equal sites: triangulate the points anew");
+  return whole.closed() ? whole : triangulate_hull(whole);
+}
+const Mesh& surrounded(const Plane&, const Mesh& mesh) { return mesh; }
+
+Points3 centres_of(const Sphere&, const Mesh& mesh) { return checked_centres(mesh); }
+Points3 centres_of(const Plane&, const Mesh& mesh) { return with_z(mesh.points.topRows<2>()); }
+
+template <Space S>
+Voronoi clipped(const Mesh& sites, const OutlineOf<S>& outline, CoastChanges* joined) {
+  const Mesh& mesh = surrounded(S(), sites);
+  Voronoi out;
+  out.surface = sites.surface;
+  out.cells = centres_of(S(), sites);
   const std::vector<DelaunayEdge> edges = delaunay_edges(mesh.triangles, mesh.points.cols());
   const auto rings =
-      walk_boundary(outline, mesh.points, neighbours_across(edges, mesh.points.cols()));
-  const std::vector<Crossing> crossings = find_crossings(rings, edges, mesh.points);
+      walk_boundary<S>(outline, out.cells, neighbours_across(edges, mesh.points.cols()));
+  const std::vector<Crossing> crossings = find_crossings<S>(rings, edges, out.cells);
   std::vector<int> starts(edges.size());
   for (const Crossing& crossing : crossings)
     starts[crossing.edge] += crossing.starts ? 1 : -1;
-  const std::vector<std::int8_t> inside = triangles_inside(edges, starts, mesh);
+  const std::vector<std::int8_t> inside = triangles_inside(edges, starts, mesh, sites.surface);
   std::vector<std::int32_t> vertex_of_triangle(inside.size(), none);
   std::int32_t inner = 0;
   for (std::size_t t = 0; t < inside.size(); ++t)
     if (inside[t] == 1)
       vertex_of_triangle[t] = inner++;
-
-  Voronoi out;
-  out.surface = mesh.surface;
-  out.cells = with_z(mesh.points.topRows<2>());
-  set_vertices(mesh, vertex_of_triangle, rings, inner, out);
+  set_vertices<S>(mesh, vertex_of_triangle, rings, inner, out);
   std::vector<ClippedSide> sides;
   add_inner_sides(edges, crossings, vertex_of_triangle, inner, sides);
   add_boundary_sides(rings, inner, sides);
-  set_cells(std::move(sides), mesh.points.cols(), out);
-  connect_open(out);
-  measure_open(out);
+  if (joined != nullptr)
+    *joined = join_parts(out.surface, out.cells, out.vertices, sides);
+  set_cells(std::move(sides), static_cast<std::int32_t>(mesh.points.cols()), out);
   return out;
 }
 
 } // namespace
 
-Voronoi bounded(const Mesh& mesh) {
-  const Outline& outline = *domain_detail::outline_of<exact_detail::Plane>(mesh.surface);
+Voronoi clipped_polygons(const Mesh& mesh, CoastChanges* joined) {
   require_mesh(mesh);
   require_inside(mesh.points, mesh.surface);
-  return bounded(mesh, outline);
+  if (mesh.surface.is_sphere())
+    return clipped<Sphere>(mesh, *outline_of<Sphere>(mesh.surface), joined);
+  return clipped<Plane>(mesh, *outline_of<Plane>(mesh.surface), joined);
+}
+
+Voronoi bounded(const Mesh& mesh) {
+  Voronoi out = clipped_polygons(mesh);
+  connect_open(out);
+  measure_open(out);
+  return out;
 }
 
 } // namespace calotte::voronoi_detail

@@ -7,7 +7,7 @@
 /// The Voronoi tessellation that is dual to a mesh, with the data of a staggered C-grid: edges,
 /// kites, lengths, areas, angles, tangential weights, and fields on the cells.
 ///
-/// In: a closed mesh, or one of the plane with its domain. Out: flat arrays of connectivity and
+/// In: a closed mesh, or one of a bounded surface. Out: flat arrays of connectivity and
 /// measures.
 namespace calotte::voronoi_detail {
 using namespace delaunay_detail; // and the rooms below it

@@ -4,6 +4,7 @@
 #include "voronoi/connectivity.h"
 #include "voronoi/room.h"
 
+#include <calotte/coastal_cells.h>
 #include <calotte/voronoi.h>
 
 /// voronoi() in stages, for callers that use the results of a stage while the next runs, and that
@@ -24,7 +25,14 @@ struct BegunVoronoi {
 /// \throws Error invalid_argument, as voronoi(mesh).
 BegunVoronoi begun(Mesh& mesh);
 
-/// The cells of a part of the plane, which clips them. \pre the mesh's surface is such a part.
+/// The cells of a part of a plane or of the sphere, which clips them: `cells`, `vertices` and
+/// `vertices_on_cell`.
+/// \param joined receives what join_parts() changed, which leaves out vertices. If it is null, a
+///        cell of several parts is an error.
+/// \pre as bounded(). \throws Error as bounded().
+Voronoi clipped_polygons(const Mesh& mesh, CoastChanges* joined = nullptr);
+
+/// The tessellation of these cells. \pre the mesh's surface is such a part.
 /// \throws Error invalid_argument, as voronoi(mesh).
 Voronoi bounded(const Mesh& mesh);
 

@@ -149,7 +149,7 @@ void connect(BegunVoronoi& out) {
 Voronoi voronoi(const Mesh& mesh) {
   using namespace voronoi_detail;
   const Surface& surface = mesh.surface;
-  if (!surface.is_sphere() && surface.is_bounded())
+  if (surface.is_bounded())
     return bounded(mesh);
   return surface.is_sphere() && !mesh.closed() ? voronoi_of_open(mesh) : voronoi_of_closed(mesh);
 }

@@ -142,9 +142,8 @@ TEST_CASE("cells and quality are those of the surface") {
     CHECK((std::count(clipped.begin(), clipped.end(), true) > 0) == mesh.surface.is_bounded());
   }
   Mesh part = delaunay(random_points(300, cap(), {}, 4), cap());
-  const Voronoi cells = voronoi(part);
-  part.surface = {}; // rings have no effect on the sphere
-  CHECK(equal_bits(cells.cell_area, voronoi(part).cell_area));
+  CHECK(voronoi(part).cell_area.sum() / cap().area() == doctest::Approx(1).epsilon(1e-12));
+  part.surface = {};
   CHECK(clipped_cells(part) == std::vector<bool>(300, false));
 }
 

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/coastal_cells.h>
+
+#include "base/points.h"
+#include "base/require.h"
+#include "exact/space.h"
+#include "voronoi/connectivity.h"
+#include "voronoi/open.h"
+#include "voronoi/stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace calotte {
+namespace voronoi_detail {
+namespace {
+
+using Polygon = std::vector<std::int32_t>; ///< vertices of a cell, counter-clockwise
+
+void connect_and_measure(Voronoi& cells) {
+  connect_open(cells);
+  measure_open(cells);
+}
+
+bool is_on_boundary(const Voronoi& cells, std::int32_t vertex) {
+  return cells.cells_on_vertex(2, vertex) < 0;
+}
+
+double width_of(const Voronoi& cells, std::int32_t cell) {
+  return std::sqrt(cells.cell_area[cell]);
+}
+
+bool is_at_boundary(const Voronoi& cells, std::int32_t cell) {
+  return std::ranges::any_of(cells.cells_on_cell[cell], [](std::int32_t id) { return id < 0; });
+}
+
+/// Whether a side of a cell, between vertices of its list, is on the boundary.
+bool is_boundary_side(const Voronoi& cells, std::int32_t cell, std::int32_t from, std::int32_t to) {
+  const std::span<const std::int32_t> all = cells.vertices_on_cell[cell];
+  const auto index = static_cast<std::size_t>(std::ranges::find(all, to) - all.begin());
+  return start_of(cells, cell, index) != from || cells.cells_on_cell[cell][index] < 0;
+}
+
+// ---- Simple polygons
+
+/// Whether two sides have a common point. \pre they share no vertex.
+template <Space S>
+bool meet(const S& space, const Voronoi& cells, std::int32_t a, std::int32_t b, std::int32_t c,
+          std::int32_t d) {
+  const auto at = [&](std::int32_t v) { return space.position(column(cells.vertices, v)); };
+  const auto a_at = at(a), b_at = at(b), c_at = at(c), d_at = at(d);
+  return space.orientation(a_at, b_at, c_at) * space.orientation(a_at, b_at, d_at) <= 0 &&
+         space.orientation(c_at, d_at, a_at) * space.orientation(c_at, d_at, b_at) <= 0;
+}
+
+/// Whether sides of a polygon meet only in the vertices that join them. The polygon is smaller
+/// than a hemisphere.
+template <Space S>
+bool is_simple(const S& space, const Voronoi& cells, std::span<const std::int32_t> polygon) {
+  const std::size_t n = polygon.size();
+  const auto at = [&](std::size_t k) { return polygon[k % n]; };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j)
+      if ((j + 1) % n != i && meet(space, cells, at(i), at(i + 1), at(j), at(j + 1)))
+        return false;
+  return n > 2;
+}
+
+/// Whether a site sees all sides of its cell on the boundary from a distance, so that kites beside
+/// them have positive areas. Sides between cells are parts of bisectors, which it always sees.
+/// \param width of the cell.
+template <Space S>
+bool is_seen(const S& space, const Voronoi& cells, std::int32_t cell, double width,
+             std::span<const std::int32_t> polygon) {
+  constexpr double least = 0.05;
+  const Vec3 &site = column(cells.cells, cell), up = S::up(site);
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const std::int32_t from = polygon[k], to = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+    const Vec3 way = space.offset(column(cells.vertices, from), column(cells.vertices, to)),
+               there = space.offset(column(cells.vertices, from), site);
+    if (is_boundary_side(cells, cell, from, to) &&
+        !(dot(up, cross(way, there)) > least * width * norm(way)))
+      return false;
+  }
+  return true;
+}
+
+// ---- Corners of the boundary
+
+/// The distance of a point from the straight line between two others, seen along the normal of the
+/// surface there.
+template <Space S>
+double distance_from_line(const S& space, const Vec3& x, const Vec3& from, const Vec3& to) {
+  const Vec3 up = S::up(x);
+  const auto tangent = [&](const Vec3& way) { return way - dot(way, up) * up; };
+  const Vec3 way = tangent(space.offset(from, to)), there = tangent(space.offset(from, x));
+  const double length2 = dot(way, way);
+  const double share = length2 > 0 ? std::clamp(dot(there, way) / length2, 0.0, 1.0) : 0;
+  return norm(there - share * way);
+}
+
+/// Copies to `kept` those corners between two vertices that are needed to stay within a distance
+/// of all (Douglas and Peucker, Cartographica 10, 1973).
+/// \param chain the vertices, with the corners between.
+template <Space S>
+void keep_bends(const S& space, const Voronoi& cells, std::span<const std::int32_t> chain,
+                double distance, Polygon& kept) {
+  std::size_t farthest = 0;
+  double most = distance;
+  for (std::size_t k = 1; k + 1 < chain.size(); ++k)
+    if (const double from = distance_from_line(space, column(cells.vertices, chain[k]),
+                                               column(cells.vertices, chain.front()),
+                                               column(cells.vertices, chain.back()));
+        from > most) {
+      most = from;
+      farthest = k;
+    }
+  if (farthest == 0)
+    return;
+  keep_bends(space, cells, chain.first(farthest + 1), distance, kept);
+  kept.push_back(chain[farthest]);
+  keep_bends(space, cells, chain.subspan(farthest), distance, kept);
+}
+
+/// A cell with few corners of the boundary.
+template <Space S>
+Polygon straightened(const S& space, const Voronoi& cells, std::int32_t cell, double straightness) {
+  const std::span<const std::int32_t> all = cells.vertices_on_cell[cell];
+  const auto is_corner = [&](std::int32_t v) { return cells.cells_on_vertex(1, v) < 0; };
+  const auto first = std::find_if_not(all.begin(), all.end(), is_corner);
+  Polygon polygon(all.begin(), all.end());
+  if (first == all.end()) // a cell without neighbours
+    return polygon;
+  std::rotate(polygon.begin(), polygon.begin() + (first - all.begin()), polygon.end());
+  polygon.push_back(polygon.front());
+  const double distance = straightness * width_of(cells, cell);
+  Polygon kept{polygon.front()};
+  for (std::size_t from = 0, to = 1; to < polygon.size(); ++to) {
+    if (is_corner(polygon[to]))
+      continue;
+    keep_bends(space, cells, std::span(polygon).subspan(from, to - from + 1), distance, kept);
+    kept.push_back(polygon[to]);
+    from = to;
+  }
+  kept.pop_back(); // the first one again
+  // The list starts with the end of the edge towards the lowest neighbour, which is no corner.
+  if (const auto start = std::find(kept.begin(), kept.end(), all.front()); start != kept.end())
+    std::rotate(kept.begin(), start, kept.end());
+  return kept;
+}
+
+/// A cell without those corners of the boundary that are not needed, and without those that hide
+/// a part of the boundary from the site.
+template <Space S>
+Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell,
+                       double straightness) {
+  constexpr double farthest = 0.5; // that a corner may be from the line that replaces it
+  const std::span<const std::int32_t> all = cells.vertices_on_cell[cell];
+  Polygon fewest(all.begin(), all.end());
+  bool found = false;
+  for (double share = straightness; share <= farthest; share *= 2) {
+    Polygon polygon = straightened(space, cells, cell, share);
+    const bool simple = polygon.size() == all.size() || is_simple(space, cells, polygon);
+    if (simple && is_seen(space, cells, cell, width_of(cells, cell), polygon))
+      return polygon;
+    if (simple && !std::exchange(found, true))
+      fewest = std::move(polygon);
+    if (share == 0)
+      break;
+  }
+  return fewest;
+}
+
+/// Leaves out the vertices that no cell has.
+void drop_unused_vertices(Voronoi& cells) {
+  std::vector<std::int32_t> id(static_cast<std::size_t>(cells.vertices.cols()), none);
+  for (const std::int32_t v : cells.vertices_on_cell.items)
+    id[static_cast<std::size_t>(v)] = 0;
+  std::int32_t count = 0;
+  for (std::size_t v = 0; v < id.size(); ++v)
+    if (id[v] >= 0) {
+      id[v] = count;
+      cells.vertices.col(count++) = cells.vertices.col(static_cast<Eigen::Index>(v)).eval();
+    }
+  cells.vertices.conservativeResize(3, count);
+  for (std::int32_t& v : cells.vertices_on_cell.items)
+    v = id[static_cast<std::size_t>(v)];
+}
+
+/// Removes corners of the boundary. \pre connected and measured.
+template <Space S> std::int64_t straighten(const S& space, double straightness, Voronoi& cells) {
+  IdLists lists;
+  lists.begin.resize(cells.vertices_on_cell.begin.size());
+  Polygon items;
+  for (std::int32_t i = 0; i < cells.cells.cols(); ++i) {
+    lists.begin[i] = std::ssize(items);
+    const std::span<const std::int32_t> all = cells.vertices_on_cell[i];
+    const Polygon polygon = is_at_boundary(cells, i) ? fewest_corners(space, cells, i, straightness)
+                                                     : Polygon(all.begin(), all.end());
+    items.insert(items.end(), polygon.begin(), polygon.end());
+  }
+  lists.begin[cells.cells.cols()] = std::ssize(items);
+  lists.items = Eigen::Map<const Ids>(items.data(), std::ssize(items));
+  const std::int64_t removed = cells.vertices_on_cell.items.size() - lists.items.size();
+  cells.vertices_on_cell = std::move(lists);
+  drop_unused_vertices(cells);
+  return removed;
+}
+
+// ---- Short edges
+
+Vec3 moved(const Sphere&, const Vec3& x, const Vec3& way) { return normalised(x + way); }
+Vec3 moved(const Plane&, const Vec3& x, const Vec3& way) { return x + way; }
+
+/// Moves an end of an edge between two cells along their bisector, away from the other end, unless
+/// a cell would overlap itself. \returns whether it did.
+template <Space S>
+bool move_end(const S& space, std::int64_t e, int end, double distance, Voronoi& cells) {
+  const std::int32_t v = cells.vertices_on_edge(end, e), a = cells.cells_on_edge(0, e),
+                     b = cells.cells_on_edge(1, e);
+  const Vec3 x = column(cells.vertices, v),
+             left = cross(S::up(x), space.offset(column(cells.cells, a), column(cells.cells, b)));
+  set_column(cells.vertices, v,
+             moved(space, x, (end == 0 ? -distance : distance) / norm(left) * left));
+  if (is_simple(space, cells, cells.vertices_on_cell[a]) &&
+      is_simple(space, cells, cells.vertices_on_cell[b]))
+    return true;
+  set_column(cells.vertices, v, x);
+  return false;
+}
+
+/// Moves ends of short edges outwards. \pre connected and measured.
+template <Space S> std::int64_t lengthen(const S& space, double least_edge, Voronoi& cells) {
+  std::int64_t count = 0;
+  for (std::int64_t e = 0; e < cells.cells_on_edge.cols() && cells.cells_on_edge(1, e) >= 0; ++e) {
+    const bool right = is_on_boundary(cells, cells.vertices_on_edge(0, e)),
+               left = is_on_boundary(cells, cells.vertices_on_edge(1, e));
+    const double lacking = least_edge * cells.dc[e] - cells.dv[e];
+    if (!(lacking > 0) || (!right && !left))
+      continue;
+    const double each = right && left ? lacking / 2 : lacking;
+    count += right && move_end(space, e, 0, each, cells) ? 1 : 0;
+    count += left && move_end(space, e, 1, each, cells) ? 1 : 0;
+  }
+  return count;
+}
+
+// ---- Edges on the boundary
+
+/// The position of the foot of a point on a line, 0 at its start and 1 at its end.
+double foot_on(const Plane&, const Vec3& from, const Vec3& to, const Vec3& x) {
+  return dot(x - from, to - from) / dot(to - from, to - from);
+}
+double foot_on(const Sphere&, const Vec3& from, const Vec3& to, const Vec3& x) {
+  const Vec3 pole = cross(from, to - from), foot = x - dot(x, pole) / dot(pole, pole) * pole;
+  const double before = dot(pole, cross(from, foot)), after = dot(pole, cross(foot, to));
+  return before / (before + after);
+}
+
+/// The point of the middle half of an edge on the boundary that is nearest to its cell: kites
+/// beside it have an area, whatever the edge's angle. NaN for other edges.
+template <Space S> Points3 boundary_edges(const S& space, const Voronoi& cells) {
+  constexpr double margin = 0.25;
+  Points3 edges =
+      Points3::Constant(3, cells.cells_on_edge.cols(), std::numeric_limits<double>::quiet_NaN());
+  for (std::int64_t e = 0; e < edges.cols(); ++e) {
+    if (cells.cells_on_edge(1, e) >= 0)
+      continue;
+    const Vec3 &from = column(cells.vertices, cells.vertices_on_edge(0, e)),
+               &to = column(cells.vertices, cells.vertices_on_edge(1, e));
+    const double foot = foot_on(space, from, to, column(cells.cells, cells.cells_on_edge(0, e)));
+    const double share = foot > margin ? std::min(foot, 1 - margin) : margin; // NaN: any
+    set_column(edges, e, moved(space, from, share * (to - from)));
+  }
+  return edges;
+}
+
+} // namespace
+} // namespace voronoi_detail
+
+CoastalCells coastal_cells(const Mesh& mesh, const CoastalOptions& options) {
+  using namespace voronoi_detail;
+  require(mesh.surface.is_bounded(),
+          "the surface has no boundary that clips cells; give one within rings, or use voronoi()");
+  require(options.straightness >= 0, "the straightness is {}; give a share of a cell's width, >= 0",
+          options.straightness);
+  require(options.least_edge >= 0 && options.least_edge <= 0.5,
+          "the least length of an edge is {} distances of cells; give 0 to 0.5",
+          options.least_edge);
+  CoastalCells out;
+  Voronoi& cells = out.voronoi;
+  cells = clipped_polygons(mesh, &out.changes);
+  drop_unused_vertices(cells);
+  connect_and_measure(cells);
+  in_space_of(mesh.surface, [&](const auto& space) {
+    out.changes.removed_corners = straighten(space, options.straightness, cells);
+    connect_and_measure(cells);
+    out.changes.moved_ends = lengthen(space, options.least_edge, cells);
+    measure_open(cells, boundary_edges(space, cells));
+  });
+  return out;
+}
+
+} // namespace calotte
