@@ -97,6 +97,7 @@ struct CvtOutcome {
   BadShapes shapes;                ///< of the mesh, where no polish ended the run
   std::string grid;                ///< the cells of the file, in words
   std::string remarks;             ///< on the file: lines, or ""
+  CoastChanges coast;              ///< of the file
   std::optional<ModelGates> gates; ///< of the model that is to read the file
   std::string worst_position;      ///< of the cell of the worst shape: " (at ...)", or ""
   double area = 0;                 ///< of the surface
@@ -332,7 +333,9 @@ void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome
   WriteOptions options = write_options(request);
   options.history = history_of(request, made.stop, run.configuration, outcome.report);
   options.progress = progress.writing(request.mesh);
-  outcome.grid = describe_cells(run.input.recipe, write_file_of(request, run, outcome, options));
+  const GridFile file = write_file_of(request, run, outcome, options);
+  outcome.grid = describe_cells(run.input.recipe, file);
+  outcome.coast = file.coast;
   compare_with_demands(request, outcome, progress);
   if (!request.report.empty())
     write_file(request.report,
@@ -377,6 +380,10 @@ void warn_of_result(const CvtRequest& request, const Schedule& schedule,
                          ? "the hexagonal lattice has whole rows and columns; --start density"
                          : "bisections of a domain with a boundary leave out midpoints outside "
                            "it; --start multilevel"));
+  const double radius = schedule.recipe.radius_km;
+  if (const std::string coast = describe_coast_changes(outcome.coast, radius * radius);
+      !coast.empty())
+    complain(coast);
   if (outcome.report.moved_on_lines > 0)
     complain(
         message("{} of {} generators on lines have moved by up to {} of the cell width, for shapes "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/coastal_cells.h>
 #include <calotte/export.h>
 #include <calotte/grid.h>
 #include <calotte/write.h>
@@ -20,6 +21,7 @@ struct GridFile {
   /// without its rings; else all.
   std::int64_t inside = 0;
   Eigen::Vector2d period{0, 0}; ///< of the file's plane; 0 across walls, and on the sphere
+  CoastChanges coast = {};      ///< of cells of a region of the sphere
 };
 
 /// Writes the part of a run's mesh that its recipe requests:
@@ -27,6 +29,7 @@ struct GridFile {
 /// - of a limited area the cells of the region and of the rings around it, see
 ///   write_limited_area(); an MPAS file;
 /// - with walls the cells between them, see walled();
+/// - of a region of the sphere, in a format of cells, its coastal_cells();
 /// - else the mesh, see write().
 ///
 ///     const Schedule schedule = plan(recipe);

@@ -1175,7 +1175,7 @@ TEST_CASE("the options of a region are checked before any work") {
   check_refusals(bench, "cvt --region circle=10,50,500km", R"(
 --cells 500 --limited-area -o a.nc | 2 | a limited area requires cell widths
 --cell-width 60km --limited-area -o a.vtp | 2 | a.vtp: the grid is an MPAS file
---cell-width 60km -o a.nc | 2 | open along the region's boundary; give --limited-area
+--cell-width 60km --format mpas-minimal -o a.nc | 2 | clips those along its boundary; write mpas
 --cells 500 --rectangle 0,0,1,1 -o a.vtp | 2 | --region applies to the sphere only
 --cells 500 --start fibonacci -o a.vtp | 2 | applies to the whole sphere only
 )");

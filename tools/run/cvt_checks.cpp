@@ -45,9 +45,9 @@ void require_region_format(const CvtRequest& request, const WriteOptions& option
   const Format format = format_of(request.mesh, options.format);
   if (request.part.limited_area)
     require_mpas_name(request.mesh);
-  if (!request.part.limited_area && info_of(format).cells)
-    refuse_path(request.mesh, "this format has cells, which are open along the region's boundary; "
-                              "give --limited-area, or a file of triangles such as .vtp");
+  if (!request.part.limited_area && format == Format::mpas_minimal)
+    refuse_path(request.mesh, "minimal MPAS files hold whole cells, and the region clips those "
+                              "along its boundary; write mpas, or give --limited-area");
 }
 
 /// The name of the file that is written beside a full MPAS file; empty for other formats.

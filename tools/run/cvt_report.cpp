@@ -147,6 +147,26 @@ std::string describe_cells(const Recipe& asked, const GridFile& file) {
   return cells;
 }
 
+std::string describe_coast_changes(const CoastChanges& coast, double square_km) {
+  std::vector<std::string> words;
+  const auto area = [&](double steradians) {
+    return formatted("%.3g km^2", square_km * steradians);
+  };
+  if (coast.merged_parts > 0)
+    words.push_back(
+        message("{} of cells joined the cell beside", counted(coast.merged_parts, "part")));
+  if (coast.removed_parts > 0)
+    words.push_back(message("{} of cells with {} became land", counted(coast.removed_parts, "part"),
+                            area(coast.removed_area)));
+  if (coast.removed_islands > 0)
+    words.push_back(message("{} with {} became sea", counted(coast.removed_islands, "island"),
+                            area(coast.island_area)));
+  if (words.empty())
+    return "";
+  return message("at the coast, where land or sea is narrower than a cell, {}",
+                 listed(words, " and "));
+}
+
 std::string verdict(const CvtStop& stop, const CvtReport& report, const BadShapes& shapes) {
   if (!report.converged)
     return "not converged";

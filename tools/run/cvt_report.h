@@ -32,6 +32,10 @@ std::string kind_of_plane(const Eigen::Vector2d& period);
 /// "10 242 cells", and which part of the mesh they are.
 std::string describe_cells(const Recipe& asked, const GridFile& file);
 
+/// What cells that end at a coast changed of it, in words; "" for no part and no island.
+/// \param square_km of a steradian.
+std::string describe_coast_changes(const CoastChanges& coast, double square_km);
+
 /// Whether a run's grid is good, a clause: "all shapes within the limits of models", or what is not
 /// and what to do.
 /// \param shapes as measured; of a run that did not end with a polish.

@@ -2,6 +2,7 @@
 #include <calotte/write_grid.h>
 
 #include "base/require.h"
+#include "io/formats/write_mesh.h"
 
 #include <calotte/cut.h>
 #include <calotte/mesh_file.h>
@@ -59,19 +60,28 @@ GridFile write_grid(const std::string& path, const Mesh& mesh, const Recipe& rec
     return write_with_rings(path, mesh, recipe, all);
   if (has_walls(recipe))
     return write_between_walls(path, mesh, recipe, all);
-  write(path, mesh, all);
-  return {mesh.points.cols(), mesh.points.cols(), mesh.surface.period()};
+  GridFile file{mesh.points.cols(), mesh.points.cols(), mesh.surface.period()};
+  if (mesh.surface.is_sphere())
+    file.coast = io_detail::write_sphere(path, {mesh}, all);
+  else
+    write(path, mesh, all);
+  return file;
 }
 
 GridFile write_grid(const std::string& path, Mesh&& mesh, const Recipe& recipe,
                     const Schedule& schedule, const WriteOptions& options) {
-  const GridFile whole{mesh.points.cols(), mesh.points.cols(), mesh.surface.period()};
+  GridFile whole{mesh.points.cols(), mesh.points.cols(), mesh.surface.period()};
   if (recipe.limited_area || has_walls(recipe)) {
     const GridFile part = write_grid(path, std::as_const(mesh), recipe, schedule, options);
     mesh = {};
     return part;
   }
-  write(path, std::move(mesh), options_for(mesh, schedule, options));
+  const WriteOptions all = options_for(mesh, schedule, options);
+  if (mesh.surface.is_sphere())
+    whole.coast = io_detail::write_sphere(path, {mesh, &mesh}, all);
+  else
+    write(path, std::move(mesh), all);
+  mesh = {};
   return whole;
 }
 

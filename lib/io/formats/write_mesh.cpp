@@ -17,6 +17,7 @@
 #include "mesh/renumber.h"
 
 #include <calotte/check.h>
+#include <calotte/coastal_cells.h>
 #include <calotte/mesh_file.h>
 
 #include <algorithm>
@@ -95,8 +96,19 @@ MeshSizes count_sizes(const Mesh& mesh) {
   return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
 }
 
+/// Whether the cells of a mesh are those that its surface's rings clip.
+bool clips_cells(const Mesh& mesh, Format format) {
+  return mesh.surface.is_bounded() && info_of(format).cells;
+}
+
 void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
   require_ids(path, mesh);
+  if (clips_cells(mesh, format)) {
+    if (!find_row(format).polygons_as)
+      refuse_path(path, "the format holds whole Voronoi cells, but the boundary of a region clips "
+                        "those along it; write mpas");
+    return;
+  }
   if (info_of(format).cells && !mesh.closed())
     refuse_path(
         path,
@@ -120,13 +132,13 @@ Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions&
 
 /// \throws Error invalid_argument, for a field that the format cannot store.
 void require_stored(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  const bool clipped = mesh.surface.is_bounded() && !mesh.surface.is_sphere();
+  const bool clipped = clips_cells(mesh, options.format),
+             whole_plane = mesh.surface.is_bounded() && !mesh.surface.is_sphere();
   for (const MeshField& field : options.fields) {
     FieldFault fault = find_fault(options.format, field);
-    if (fault == FieldFault::none && clipped && info_of(options.format).cells &&
-        field.location != FieldLocation::cells)
+    if (fault == FieldFault::none && clipped && field.location != FieldLocation::cells)
       fault = FieldFault::location;
-    if (fault == FieldFault::none && (clipped || mesh.closed()) &&
+    if (fault == FieldFault::none && (clipped || whole_plane || mesh.closed()) &&
         is_computed(options.format, field))
       fault = FieldFault::name;
     if (fault != FieldFault::none)
@@ -139,36 +151,6 @@ void require_input_numbering(const std::string& path, Numbering numbering) {
     refuse_path(path, "the cells of a planar mesh keep their numbers; leave the order out");
 }
 
-/// \param mesh its own is freed as early as the format allows.
-void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
-  constexpr double numbered = 0.2; // share of the time if cells are renumbered
-  WriteOptions resolved = options;
-  resolved.format = format_of(path, options.format);
-  take_coast_fields(resolved);
-  require_options(path, resolved);
-  require_mesh(path, mesh.mesh, resolved.format);
-  require_values(path, count_sizes(mesh.mesh), resolved);
-  if (info_of(resolved.format).netcdf)
-    replace_names(resolved.fields);
-  require_stored(path, mesh.mesh, resolved);
-  Monitor monitor(options.progress);
-  monitor.begin("number", numbered, 1);
-  const Numbering numbering = choose_numbering(resolved);
-  const bool stays = numbering == Numbering::input ||
-                     (numbering == Numbering::curve && is_in_curve_order(mesh.mesh));
-  resolved.progress = progress_from(options.progress, stays ? 0 : numbered);
-  const FormatRow& format = find_row(resolved.format);
-  if (stays) {
-    format.write_mesh(path, mesh, resolved);
-  } else {
-    Mesh other = renumbered_with_values(mesh.mesh, numbering, resolved);
-    if (mesh.own != nullptr)
-      *mesh.own = {};
-    format.write_mesh(path, {other, &other}, resolved);
-  }
-  monitor.finish("write");
-}
-
 /// Adds fields of cells that files of polygons do not compute.
 void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
   const CellFields fields = make_cell_fields(voronoi, options);
@@ -178,9 +160,13 @@ void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
   options.fields.push_back({.name = "degree", .values = fields.degree.cast<double>()});
 }
 
+/// Writes cells that a boundary clips.
 void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
-  if (options.format == Format::mpas)
-    return write_mpas(path, std::move(cells), {}, options);
+  if (options.format == Format::mpas) {
+    Points3 points =
+        cells.surface.is_sphere() ? on_sphere(cells.cells, options.sphere_radius) : Points3(3, 0);
+    return write_mpas(path, std::move(cells), std::move(points), options);
+  }
   if (options.format != Format::ugrid)
     add_cell_fields(cells, options);
   DoubleVector area = std::move(cells.cell_area);
@@ -213,6 +199,43 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
 }
 
 } // namespace
+
+CoastChanges io_detail::write_sphere(const std::string& path, WrittenMesh mesh,
+                                     const WriteOptions& options) {
+  constexpr double numbered = 0.2; // share of the time if cells are renumbered
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  take_coast_fields(resolved);
+  require_options(path, resolved);
+  require_mesh(path, mesh.mesh, resolved.format);
+  require_values(path, count_sizes(mesh.mesh), resolved);
+  if (info_of(resolved.format).netcdf)
+    replace_names(resolved.fields);
+  require_stored(path, mesh.mesh, resolved);
+  Monitor monitor(options.progress);
+  monitor.begin("number", numbered, 1);
+  const Numbering numbering = choose_numbering(resolved);
+  const bool stays = numbering == Numbering::input ||
+                     (numbering == Numbering::curve && is_in_curve_order(mesh.mesh));
+  resolved.progress = progress_from(options.progress, stays ? 0 : numbered);
+  const FormatRow& format = find_row(resolved.format);
+  CoastChanges changes;
+  if (clips_cells(mesh.mesh, resolved.format)) {
+    CoastalCells cells =
+        coastal_cells(stays ? mesh.mesh : renumbered_with_values(mesh.mesh, numbering, resolved));
+    changes = cells.changes;
+    write_cells(path, std::move(cells.voronoi), resolved);
+  } else if (stays) {
+    format.write_mesh(path, mesh, resolved);
+  } else {
+    Mesh other = renumbered_with_values(mesh.mesh, numbering, resolved);
+    if (mesh.own != nullptr)
+      *mesh.own = {};
+    format.write_mesh(path, {other, &other}, resolved);
+  }
+  monitor.finish("write");
+  return changes;
+}
 
 void require_planar_format(const std::string& path, const Surface& plane, Format format) {
   const bool periodic = plane.period().maxCoeff() > 0, bounded = plane.is_bounded();

@@ -5,6 +5,7 @@
 #include "io/formats/format_table.h"
 #include "io/formats/room.h"
 
+#include <calotte/coastal_cells.h>
 #include <calotte/voronoi.h>
 
 #include <string>
@@ -21,6 +22,11 @@ bool is_coast_field(const MeshField& field, Format format);
 /// Moves such fields to the options' depths and open sites, unless these are given.
 /// \param options of a known format.
 void take_coast_fields(WriteOptions& options);
+
+/// Writes a mesh of the sphere, see write().
+/// \param mesh its own is freed as early as the format allows.
+/// \returns what coastal_cells() changed, if the file has the cells of a region.
+CoastChanges write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions& options);
 
 /// The order of the cells in a file of the options' format, which is known.
 Numbering choose_numbering(const WriteOptions& options);
