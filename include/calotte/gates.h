@@ -17,7 +17,7 @@ namespace calotte {
 /// What a model demands of a grid, and the speeds that limit its time step. 0 where it demands
 /// nothing.
 struct GridDemands {
-  std::int64_t least_sides = 0; ///< of a cell
+  std::int64_t least_sides = 0; ///< of a cell that lacks no neighbour
   double least_dv_over_dc = 0;  ///< of a Voronoi edge over its Delaunay edge
   /// Of the width of a cell over that of a neighbour, minus 1. Widths are those of hexagons of the
   /// cells' areas, their logarithms smoothed with a weight whose standard deviation is sqrt(2)

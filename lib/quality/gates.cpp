@@ -86,6 +86,11 @@ double ring_fault(const Voronoi& voronoi, const Ids& mask, std::int64_t i, std::
   return touches ? 0 : 1;
 }
 
+/// Whether a cell lacks a neighbour. Of a cell that a coast clips, sides tell no dislocation.
+bool is_at_boundary(const Voronoi& voronoi, std::int64_t i) {
+  return std::ranges::any_of(voronoi.cells_on_cell[i], [](std::int32_t id) { return id < 0; });
+}
+
 /// The greatest eigenvalue of the negative Laplacian at cells is at most the greatest sum over the
 /// sides of a cell of twice dv / dc, over its area (Gershgorin 1931).
 double eigenvalue_bound(const Voronoi& voronoi, std::int64_t i) {
@@ -125,7 +130,10 @@ std::vector<Gate> gates(const Voronoi& voronoi, const GridDemands& demands, doub
 
   std::vector<Gate> found;
   found.push_back(on_cells("sides of a cell, least",
-                           limit_of(static_cast<double>(demands.least_sides)), true, sides));
+                           limit_of(static_cast<double>(demands.least_sides)), true,
+                           [&](std::int64_t i) {
+                             return is_at_boundary(voronoi, i) ? no_value : sides(i);
+                           }));
   found.push_back(on_cells("sides of a cell, most", {}, false, sides));
   found.push_back(on_edges("dv / dc, least", limit_of(demands.least_dv_over_dc), true,
                            [&](std::int64_t e) { return voronoi.dv[e] / voronoi.dc[e]; }));
