@@ -340,7 +340,7 @@ void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome
   if (!request.report.empty())
     write_file(request.report,
                to_json(request, run.schedule, outcome.report, outcome.cells, outcome.area,
-                       outcome.threads, outcome.states, outcome.gates));
+                       outcome.threads, outcome.states, outcome.gates, outcome.coast));
 }
 
 /// The cells of the next iteration: of the start, or of the state.
@@ -445,6 +445,9 @@ void run(CvtRequest request) {
     finish_not_converged(request, stop, outcome.report);
   if (*stop.well_centred && !outcome.report.well_centred)
     finish_not_well_centred(request, outcome);
+  const std::string hidden = describe_hidden_coast(outcome.coast);
+  if (!hidden.empty())
+    finish(beyond_demands, hidden);
   if (!beyond.empty())
     finish(beyond_demands);
 }

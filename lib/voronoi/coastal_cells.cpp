@@ -22,6 +22,9 @@ namespace {
 
 using Polygon = std::vector<std::int32_t>; ///< vertices of a cell, counter-clockwise
 
+/// The least distance of a site from the lines of its cell's sides on the boundary, in widths.
+constexpr double least_seen = 0.05;
+
 void connect_and_measure(Voronoi& cells) {
   connect_open(cells);
   measure_open(cells);
@@ -77,14 +80,13 @@ bool is_simple(const S& space, const Voronoi& cells, std::span<const std::int32_
 template <Space S>
 bool is_seen(const S& space, const Voronoi& cells, std::int32_t cell, double width,
              std::span<const std::int32_t> polygon) {
-  constexpr double least = 0.05;
   const Vec3 &site = column(cells.cells, cell), up = S::up(site);
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const std::int32_t from = polygon[k], to = polygon[k + 1 == polygon.size() ? 0 : k + 1];
     const Vec3 way = space.offset(column(cells.vertices, from), column(cells.vertices, to)),
                there = space.offset(column(cells.vertices, from), site);
     if (is_boundary_side(cells, cell, from, to) &&
-        !(dot(up, cross(way, there)) > least * width * norm(way)))
+        !(dot(up, cross(way, there)) > least_seen * width * norm(way)))
       return false;
   }
   return true;
@@ -156,23 +158,29 @@ Polygon straightened(const S& space, const Voronoi& cells, std::int32_t cell, do
 
 /// A cell without those corners of the boundary that are not needed, and without those that hide
 /// a part of the boundary from the site.
+/// \param hidden set to true if a part stays hidden.
 template <Space S>
-Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell,
-                       double straightness) {
+Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell, double straightness,
+                       bool& hidden) {
   constexpr double farthest = 0.5; // that a corner may be from the line that replaces it
   const std::span<const std::int32_t> all = cells.vertices_on_cell[cell];
   Polygon fewest(all.begin(), all.end());
   bool found = false;
-  for (double share = straightness; share <= farthest; share *= 2) {
+  const auto suits = [&](double share) {
     Polygon polygon = straightened(space, cells, cell, share);
-    const bool simple = polygon.size() == all.size() || is_simple(space, cells, polygon);
-    if (simple && is_seen(space, cells, cell, width_of(cells, cell), polygon))
-      return polygon;
-    if (simple && !std::exchange(found, true))
+    const bool simple = polygon.size() == all.size() || is_simple(space, cells, polygon),
+               seen = simple && is_seen(space, cells, cell, width_of(cells, cell), polygon);
+    if (seen || (simple && !found))
       fewest = std::move(polygon);
-    if (share == 0)
-      break;
-  }
+    found = found || simple;
+    return seen;
+  };
+  if (suits(straightness))
+    return fewest;
+  for (double share = 2 * straightness; straightness > 0 && share <= farthest; share *= 2)
+    if (suits(share))
+      return fewest;
+  hidden = straightness == 0 || !suits(std::numeric_limits<double>::infinity());
   return fewest;
 }
 
@@ -193,23 +201,27 @@ void drop_unused_vertices(Voronoi& cells) {
 }
 
 /// Removes corners of the boundary. \pre connected and measured.
-template <Space S> std::int64_t straighten(const S& space, double straightness, Voronoi& cells) {
+template <Space S>
+void straighten(const S& space, double straightness, CoastChanges& changes, Voronoi& cells) {
   IdLists lists;
   lists.begin.resize(cells.vertices_on_cell.begin.size());
   Polygon items;
   for (std::int32_t i = 0; i < cells.cells.cols(); ++i) {
     lists.begin[i] = std::ssize(items);
     const std::span<const std::int32_t> all = cells.vertices_on_cell[i];
-    const Polygon polygon = is_at_boundary(cells, i) ? fewest_corners(space, cells, i, straightness)
-                                                     : Polygon(all.begin(), all.end());
+    bool hidden = false;
+    const Polygon polygon = is_at_boundary(cells, i)
+                                ? fewest_corners(space, cells, i, straightness, hidden)
+                                : Polygon(all.begin(), all.end());
+    if (hidden && changes.hidden_cells++ == 0)
+      changes.hidden_cell = i;
     items.insert(items.end(), polygon.begin(), polygon.end());
   }
   lists.begin[cells.cells.cols()] = std::ssize(items);
   lists.items = Eigen::Map<const Ids>(items.data(), std::ssize(items));
-  const std::int64_t removed = cells.vertices_on_cell.items.size() - lists.items.size();
+  changes.removed_corners = cells.vertices_on_cell.items.size() - lists.items.size();
   cells.vertices_on_cell = std::move(lists);
   drop_unused_vertices(cells);
-  return removed;
 }
 
 // ---- Short edges
@@ -263,7 +275,8 @@ double foot_on(const Sphere&, const Vec3& from, const Vec3& to, const Vec3& x) {
 }
 
 /// The point of the middle half of an edge on the boundary that is nearest to its cell: kites
-/// beside it have an area, whatever the edge's angle. NaN for other edges.
+/// beside it have an area, whatever the edge's angle. NaN for other edges, and for those that are
+/// too near.
 template <Space S> Points3 boundary_edges(const S& space, const Voronoi& cells) {
   constexpr double margin = 0.25;
   Points3 edges =
@@ -275,7 +288,10 @@ template <Space S> Points3 boundary_edges(const S& space, const Voronoi& cells) 
                &to = column(cells.vertices, cells.vertices_on_edge(1, e));
     const double foot = foot_on(space, from, to, column(cells.cells, cells.cells_on_edge(0, e)));
     const double share = foot > margin ? std::min(foot, 1 - margin) : margin; // NaN: any
-    set_column(edges, e, moved(space, from, share * (to - from)));
+    const Vec3 at = moved(space, from, share * (to - from));
+    const std::int32_t cell = cells.cells_on_edge(0, e);
+    if (norm(space.offset(column(cells.cells, cell), at)) > least_seen * width_of(cells, cell))
+      set_column(edges, e, at);
   }
   return edges;
 }
@@ -287,8 +303,8 @@ CoastalCells coastal_cells(const Mesh& mesh, const CoastalOptions& options) {
   using namespace voronoi_detail;
   require(mesh.surface.is_bounded(),
           "the surface has no boundary that clips cells; give one within rings, or use voronoi()");
-  require(options.straightness >= 0, "the straightness is {}; give a share of a cell's width, >= 0",
-          options.straightness);
+  require(options.straightness >= 0 && options.straightness <= 0.5,
+          "the straightness is {}; give a share of a cell's width, 0 to 0.5", options.straightness);
   require(options.least_edge >= 0 && options.least_edge <= 0.5,
           "the least length of an edge is {} distances of cells; give 0 to 0.5",
           options.least_edge);
@@ -298,10 +314,12 @@ CoastalCells coastal_cells(const Mesh& mesh, const CoastalOptions& options) {
   drop_unused_vertices(cells);
   connect_and_measure(cells);
   in_space_of(mesh.surface, [&](const auto& space) {
-    out.changes.removed_corners = straighten(space, options.straightness, cells);
+    const DoubleVector before = cells.cell_area;
+    straighten(space, options.straightness, out.changes, cells);
     connect_and_measure(cells);
     out.changes.moved_ends = lengthen(space, options.least_edge, cells);
     measure_open(cells, boundary_edges(space, cells));
+    out.changes.changed_area = (cells.cell_area - before).cwiseAbs().sum();
   });
   return out;
 }

@@ -128,6 +128,16 @@ void check_complex(const Voronoi& cells) {
   CHECK(cells.vertex_area.sum() / cells.cell_area.sum() == doctest::Approx(1).epsilon(1e-12));
 }
 
+/// The least area of the kites of cells.
+double least_kite(const Voronoi& cells) {
+  double least = 10;
+  for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v)
+    for (int j = 0; j < 3; ++j)
+      if (cells.cells_on_vertex(j, v) >= 0)
+        least = std::min(least, cells.kites(j, v));
+  return least;
+}
+
 /// The corners of the boundary in vertices with one cell.
 std::int64_t corners(const Voronoi& cells) {
   return (cells.cells_on_vertex.row(1).array() < 0).count();
@@ -186,7 +196,7 @@ TEST_CASE("coastal cells lie between points of the boundary") {
               coastal.changes.removed_islands + coastal.changes.moved_ends ==
           0);
     CHECK(coastal.changes.removed_corners == corners(exact) - corners(cells));
-    CHECK(cells.kites.minCoeff() >= 0);
+    CHECK(least_kite(cells) > 0);
     for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v)
       if (cells.cells_on_vertex(2, v) < 0)
         CHECK(distance_from_boundary(of.region, unit_at(cells.vertices, v)) < 1e-14);
@@ -245,6 +255,31 @@ TEST_CASE("an island within a cell becomes sea") {
   CHECK(coastal.changes.removed_islands == 1);
   CHECK((coastal.voronoi.cell_area.sum() - coastal.changes.island_area) / sea.area() ==
         doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("a coast that hides itself from a site is straightened, or counted") {
+  // Teeth of the coast hide parts of it. Those of the second sea are half a cell high.
+  const auto toothed = [](double height) {
+    std::vector<std::array<double, 2>> ring{{0, 0}, {20, 0}, {20, 10}};
+    for (int k = 1; k < 40; ++k)
+      ring.push_back({20 - 0.5 * k, 10 + (k % 2 == 0 ? 0 : height)});
+    ring.push_back({0, 10});
+    return region_of({ring});
+  };
+  for (const double height : {1.2, 2.0}) {
+    CAPTURE(height);
+    const Mesh mesh = mesh_in({"teeth", toothed(height), 30});
+    const CoastalCells all = coastal_cells(mesh, {.straightness = 0, .least_edge = 0});
+    CHECK(least_kite(all.voronoi) < 0);
+    CHECK(all.changes.hidden_cells > 0);
+    const CoastalCells coastal = coastal_cells(mesh);
+    check_complex(coastal.voronoi);
+    CHECK(coastal.changes.hidden_cells < all.changes.hidden_cells);
+    CHECK((least_kite(coastal.voronoi) > 0) == (coastal.changes.hidden_cells == 0));
+    CHECK((coastal.changes.hidden_cell < 0) == (coastal.changes.hidden_cells == 0));
+    CHECK((coastal.changes.hidden_cells == 0) == (height < 2));
+    CHECK(coastal.changes.changed_area < 0.2 * mesh.surface.area());
+  }
 }
 
 TEST_CASE("short edges behind the boundary are lengthened") {

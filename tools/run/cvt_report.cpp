@@ -59,6 +59,14 @@ Json to_json(const KeptState& state) {
   return {{"evaluation", state.evaluation}, {"file", state.file}};
 }
 
+Json to_json(const CoastChanges& coast) {
+  return {{"merged_parts", coast.merged_parts}, {"removed_parts", coast.removed_parts},
+          {"removed_area", coast.removed_area}, {"removed_islands", coast.removed_islands},
+          {"island_area", coast.island_area},   {"removed_corners", coast.removed_corners},
+          {"moved_ends", coast.moved_ends},     {"changed_area", coast.changed_area},
+          {"hidden_cells", coast.hidden_cells}, {"hidden_cell", coast.hidden_cell}};
+}
+
 template <class List> Json array_of(const List& list) {
   Json array = Json::array();
   for (const auto& item : list)
@@ -84,7 +92,8 @@ constexpr const char* within_limits = "all shapes within the limits of models";
 
 std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
-                    const std::vector<KeptState>& states, const std::optional<ModelGates>& gates) {
+                    const std::vector<KeptState>& states, const std::optional<ModelGates>& gates,
+                    const CoastChanges& coast) {
   const CvtStop& stop = schedule.recipe.stop;
   Json json;
   json["calotte"] = CALOTTE_VERSION;
@@ -121,6 +130,8 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
     json["states"] = array_of(states);
   if (gates)
     json["demands"] = to_json(*gates);
+  if (coast != CoastChanges())
+    json["coast"] = to_json(coast);
   return json.dump(1) + "\n";
 }
 
@@ -165,6 +176,16 @@ std::string describe_coast_changes(const CoastChanges& coast, double square_km) 
     return "";
   return message("at the coast, where land or sea is narrower than a cell, {}",
                  listed(words, " and "));
+}
+
+std::string describe_hidden_coast(const CoastChanges& coast) {
+  return coast.hidden_cells == 0
+             ? ""
+             : message(
+                   "{}, the first of which is {} of the file (0-based), lie behind a bend of "
+                   "the coast, and parts of them have negative areas; the mesh is written; make "
+                   "the region by calotte coast, or give more cells",
+                   counted(coast.hidden_cells, "cell"), coast.hidden_cell);
 }
 
 std::string verdict(const CvtStop& stop, const CvtReport& report, const BadShapes& shapes) {

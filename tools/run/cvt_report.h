@@ -22,9 +22,11 @@ namespace calotte::tools {
 /// \param threads number of threads.
 /// \param area area of the sphere or the domain.
 /// \param gates of the model that is to read the grid, if one is named.
+/// \param coast what making the cells of a region changed.
 std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
-                    const std::vector<KeptState>& states, const std::optional<ModelGates>& gates);
+                    const std::vector<KeptState>& states, const std::optional<ModelGates>& gates,
+                    const CoastChanges& coast);
 
 /// The periods and walls of a mesh of a plane.
 std::string kind_of_plane(const Eigen::Vector2d& period);
@@ -35,6 +37,9 @@ std::string describe_cells(const Recipe& asked, const GridFile& file);
 /// What cells that end at a coast changed of it, in words; "" for no part and no island.
 /// \param square_km of a steradian.
 std::string describe_coast_changes(const CoastChanges& coast, double square_km);
+
+/// That cells do not see all of their coast, and what to do; "" if there are none.
+std::string describe_hidden_coast(const CoastChanges& coast);
 
 /// Whether a run's grid is good, a clause: "all shapes within the limits of models", or what is not
 /// and what to do.
