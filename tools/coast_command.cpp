@@ -160,7 +160,9 @@ void add_coast(CLI::App& app) {
             .examples = {"calotte coast /usr/share/gmt-gshhg/binned_GSHHS_l.nc --cell-width 120km "
                          "-o sea.geojson",
                          "calotte coast land.geojson --cell-width rules.toml --passage "
-                         "straits.geojson -o sea.geojson"}});
+                         "straits.geojson -o sea.geojson",
+                         "calotte cvt --region sea.geojson --cell-width 120km --for mpas-ocean -o "
+                         "ocean.nc"}});
   command->callback([request] { run(*request); });
 }
 

@@ -1170,12 +1170,47 @@ TEST_CASE("a limited-area grid in one command, the same after a resumption") {
   CHECK(has(bench.run("check c.vtp").out, "Delaunay        yes, every edge"));
 }
 
+TEST_CASE("the cells of a region follow its boundary") {
+  const Bench bench;
+  const Outcome made = bench.run("cvt --region circle=10,50,500km --cell-width 60km --for "
+                                 "mpas-ocean -o a.nc --report a.json");
+  CAPTURE(made.err);
+  REQUIRE(made.code == 0);
+  CHECK(!has(made.err, "at the coast"));
+  CHECK(has(bench.file("a.json"), "\"hidden_cells\": 0"));
+  CHECK(fs::exists(bench.folder() / "a.graph.info"));
+  CHECK(bench.run("check a.nc --for mpas-ocean").code == 0);
+  CHECK(bench.run("info a.nc").code == 0);
+  CHECK(bench.run("draw a.nc -o a.png --what cells").code == 0);
+  CHECK(bench.run("interpolate a.nc 36x18 --weights b.nc").code == 0);
+  // Cells at the boundary stay, so that not all widths are met.
+  CHECK(bench.run("refine a.nc --region circle=10,50,100km --factor 1.5 -o c.nc").code <= 1);
+  CHECK(bench.run("check c.nc --for mpas-ocean").code == 0);
+}
+
+TEST_CASE("bays that hide a coast, and spits that cut cells, are told with an exit code") {
+  const Bench bench;
+  std::string comb = "[20,0]";
+  for (int k = 0; k < 200; ++k)
+    comb += ",[" + std::to_string(20 - 0.1 * k) + (k % 2 == 0 ? ",19]" : ",21]");
+  bench.file("comb.geojson",
+             R"({"type":"Polygon","coordinates":[[[0,0],)" + comb + ",[0,20],[0,0]]]}");
+  const Outcome made = bench.run("cvt --region comb.geojson --cell-width 200km -o a.nc");
+  CAPTURE(made.err);
+  CHECK(made.code == 5);
+  CHECK(has(made.err, "where land or sea is narrower than a cell"));
+  CHECK(has(made.err, "behind a bend of the coast"));
+  CHECK(has(made.err, "make the region by calotte coast"));
+  CHECK(bench.run("check a.nc").code == 0);
+}
+
 TEST_CASE("the options of a region are checked before any work") {
   const Bench bench;
   check_refusals(bench, "cvt --region circle=10,50,500km", R"(
 --cells 500 --limited-area -o a.nc | 2 | a limited area requires cell widths
 --cell-width 60km --limited-area -o a.vtp | 2 | a.vtp: the grid is an MPAS file
 --cell-width 60km --format mpas-minimal -o a.nc | 2 | clips those along its boundary; write mpas
+--cell-width 60km --boundary generators -o a.nc | 2 | a.nc: this format has cells, whose centres
 --cells 500 --rectangle 0,0,1,1 -o a.vtp | 2 | --region applies to the sphere only
 --cells 500 --start fibonacci -o a.vtp | 2 | applies to the whole sphere only
 )");

@@ -145,9 +145,10 @@ GeoJSON feature for its own:
 In a .pts file the line Point: is a place inside. The same rule holds for the polygons of --land and
 --cell-width.
 
-The boundary clips the cells along it (--boundary clip): the mesh has the triangles whose circumcentre
-lies in the region. With --boundary generators some generators stay on the boundary, at the distances
-that the density demands, with one at each sharp corner. The mesh then ends at them.
+The boundary clips the cells along it (--boundary clip). Files of cells have the clipped cells, with
+edges along the boundary; those of triangles the triangles whose circumcentre lies in the region.
+With --boundary generators some generators stay on the boundary, at the distances that the density
+demands, with one at each sharp corner. The mesh then ends at them.
 )";
 
 constexpr const char* measures =

@@ -48,6 +48,9 @@ void require_region_format(const CvtRequest& request, const WriteOptions& option
   if (!request.part.limited_area && format == Format::mpas_minimal)
     refuse_path(request.mesh, "minimal MPAS files hold whole cells, and the region clips those "
                               "along its boundary; write mpas, or give --limited-area");
+  if (!request.part.limited_area && info_of(format).cells && ends_at_boundary(request.part))
+    refuse_path(request.mesh, "this format has cells, whose centres --boundary generators puts on "
+                              "the boundary; leave it out, or write triangles such as .vtp");
 }
 
 /// The name of the file that is written beside a full MPAS file; empty for other formats.
