@@ -183,8 +183,8 @@ typedef struct calotte_cells calotte_cells;
 /** Frees cells and all that pointers from them point to. Null is ignored. */
 CALOTTE_C_API void calotte_cells_free(calotte_cells* cells);
 
-/** The Voronoi cells of a mesh of the whole sphere or of a periodic box, or of a plane with rings,
- * which clip them. */
+/** The Voronoi cells of a mesh of the whole sphere or of a periodic box, or of a surface with
+ * rings, which clip them. */
 CALOTTE_C_API calotte_status calotte_voronoi(const calotte_mesh* mesh, calotte_cells** cells,
                                              calotte_error* error);
 

@@ -159,7 +159,8 @@ struct WriteOptions {
 /// - a name that starts with SaveVertices: mpi_scvt. The rest of the name is also that of
 ///   SaveTriangles and SaveDensity beside it.
 ///
-/// On the sphere formats of cells require a closed mesh. Coordinates in NetCDF files are
+/// On the sphere formats of cells require a closed mesh, or one of a part of the sphere, of which
+/// they have the coastal_cells(). Coordinates in NetCDF files are
 /// sphere_radius times the unit vectors; a point whose norm equals that radius up to rounding keeps
 /// its bits.
 ///

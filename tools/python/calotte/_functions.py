@@ -117,7 +117,8 @@ def _require_end(mesh):
 
 
 def voronoi(mesh: Grid, surface: SurfaceLike | None = None) -> Voronoi:
-    """The Voronoi cells of a mesh, on its surface: the sphere, a periodic box, a part of a plane.
+    """The Voronoi cells of a mesh, on its surface: the sphere, a periodic box, or a part of the
+    sphere or of a plane, which clips them.
 
     Cell i has the entries begin[i] to begin[i + 1] of edges_on_cell, vertices_on_cell and
     cells_on_cell, counter-clockwise. Areas are steradians and lengths radians, in the plane those of
