@@ -445,9 +445,9 @@ void run(CvtRequest request) {
     finish_not_converged(request, stop, outcome.report);
   if (*stop.well_centred && !outcome.report.well_centred)
     finish_not_well_centred(request, outcome);
-  const std::string hidden = describe_hidden_coast(outcome.coast);
-  if (!hidden.empty())
-    finish(beyond_demands, hidden);
+  const std::string faults = describe_coast_faults(outcome.coast);
+  if (!faults.empty())
+    finish(beyond_demands, faults);
   if (!beyond.empty())
     finish(beyond_demands);
 }

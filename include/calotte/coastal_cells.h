@@ -35,6 +35,9 @@ struct CoastChanges {
   /// nearer to it than 0.05: they have kites of negative areas, or distances near 0.
   std::int64_t hidden_cells = 0;
   std::int32_t hidden_cell = -1; ///< the first one
+  /// Cells at the boundary with less than a third of the mean area of the cells beside them.
+  std::int64_t small_cells = 0;
+  std::int32_t small_cell = -1; ///< the first one
 
   friend bool operator==(const CoastChanges&, const CoastChanges&) = default;
 };

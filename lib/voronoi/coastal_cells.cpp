@@ -296,6 +296,24 @@ template <Space S> Points3 boundary_edges(const S& space, const Voronoi& cells) 
   return edges;
 }
 
+/// Counts cells that are slivers.
+void count_small(const Voronoi& cells, CoastChanges& changes) {
+  constexpr double least = 1.0 / 3; // of the mean area of the neighbours
+  for (std::int32_t i = 0; i < cells.cells.cols(); ++i) {
+    if (!is_at_boundary(cells, i))
+      continue;
+    double sum = 0;
+    int count = 0;
+    for (const std::int32_t other : cells.cells_on_cell[i])
+      if (other >= 0) {
+        sum += cells.cell_area[other];
+        ++count;
+      }
+    if (count * cells.cell_area[i] < least * sum && changes.small_cells++ == 0)
+      changes.small_cell = i;
+  }
+}
+
 } // namespace
 } // namespace voronoi_detail
 
@@ -319,6 +337,7 @@ CoastalCells coastal_cells(const Mesh& mesh, const CoastalOptions& options) {
     connect_and_measure(cells);
     out.changes.moved_ends = lengthen(space, options.least_edge, cells);
     measure_open(cells, boundary_edges(space, cells));
+    count_small(cells, out.changes);
     out.changes.changed_area = (cells.cell_area - before).cwiseAbs().sum();
   });
   return out;

@@ -156,8 +156,17 @@ def test_the_cells_of_sites_in_a_hemisphere():
     assert three.cell_area.sum() == pytest.approx(4 * math.pi) and len(three.vertices) == 2
     ends = calotte.cvt(300, surface=calotte.polygon(
         [(0, 0), (60, 0), (60, 10), (30, 12), (60, 14), (60, 40), (0, 40)])).mesh
-    with pytest.raises(calotte.Error, match="not the hull of its sites"):
+    with pytest.raises(calotte.Error, match="into several parts"):
         calotte.voronoi(ends)
+
+
+def test_a_region_clips_its_cells(tmp_path):
+    region = calotte.circle((10, 50), "1000km")
+    mesh = calotte.cvt(200, surface=region).mesh
+    assert calotte.voronoi(mesh).cell_area.sum() == pytest.approx(region.area, rel=1e-12)
+    calotte.write(tmp_path / "sea.nc", mesh)
+    read = calotte.voronoi(calotte.read(tmp_path / "sea.nc"))
+    assert read.cell_area.sum() == pytest.approx(region.area, rel=5e-3)
 
 
 # ---- What is kept and shown

@@ -282,6 +282,15 @@ TEST_CASE("a coast that hides itself from a site is straightened, or counted") {
   }
 }
 
+TEST_CASE("cells that a coast leaves small are counted") {
+  const Surface sea = region_of({square(0, 0, 10)});
+  const Mesh mesh =
+      delaunay(ring_of({{-5, -5}, {6, -6}, {5, 5}, {-6, 6}, {8, 8}, {9.7, 9.7}}), sea);
+  const CoastChanges changes = coastal_cells(mesh).changes;
+  CHECK(changes.small_cells == 1);
+  CHECK(changes.small_cell == 5);
+}
+
 TEST_CASE("short edges behind the boundary are lengthened") {
   // The circumcentre of the first three is just inside the northern side.
   const Surface sea = region_of({square(0, 0, 10)});

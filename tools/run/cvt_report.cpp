@@ -64,7 +64,8 @@ Json to_json(const CoastChanges& coast) {
           {"removed_area", coast.removed_area}, {"removed_islands", coast.removed_islands},
           {"island_area", coast.island_area},   {"removed_corners", coast.removed_corners},
           {"moved_ends", coast.moved_ends},     {"changed_area", coast.changed_area},
-          {"hidden_cells", coast.hidden_cells}, {"hidden_cell", coast.hidden_cell}};
+          {"hidden_cells", coast.hidden_cells}, {"hidden_cell", coast.hidden_cell},
+          {"small_cells", coast.small_cells},   {"small_cell", coast.small_cell}};
 }
 
 template <class List> Json array_of(const List& list) {
@@ -178,14 +179,21 @@ std::string describe_coast_changes(const CoastChanges& coast, double square_km) 
                  listed(words, " and "));
 }
 
-std::string describe_hidden_coast(const CoastChanges& coast) {
-  return coast.hidden_cells == 0
-             ? ""
-             : message(
-                   "{}, the first of which is {} of the file (0-based), lie behind a bend of "
-                   "the coast, and parts of them have negative areas; the mesh is written; make "
-                   "the region by calotte coast, or give more cells",
-                   counted(coast.hidden_cells, "cell"), coast.hidden_cell);
+std::string describe_coast_faults(const CoastChanges& coast) {
+  std::vector<std::string> faults;
+  if (coast.hidden_cells > 0)
+    faults.push_back(
+        message("{} behind a bend of the coast, with parts of negative area, the first "
+                "of which is {} of the file (0-based)",
+                counted(coast.hidden_cells, "cell"), coast.hidden_cell));
+  if (coast.small_cells > 0)
+    faults.push_back(message("{} with less than a third of the area of those beside, the first of "
+                             "which is {}",
+                             counted(coast.small_cells, "cell"), coast.small_cell));
+  return faults.empty() ? ""
+                        : message("the coast leaves {}; the mesh is written; make the region by "
+                                  "calotte coast, or give more cells",
+                                  listed(faults, " and "));
 }
 
 std::string verdict(const CvtStop& stop, const CvtReport& report, const BadShapes& shapes) {

@@ -38,8 +38,8 @@ std::string describe_cells(const Recipe& asked, const GridFile& file);
 /// \param square_km of a steradian.
 std::string describe_coast_changes(const CoastChanges& coast, double square_km);
 
-/// That cells do not see all of their coast, and what to do; "" if there are none.
-std::string describe_hidden_coast(const CoastChanges& coast);
+/// That cells do not see all of their coast or are small, and what to do; "" if there are none.
+std::string describe_coast_faults(const CoastChanges& coast);
 
 /// Whether a run's grid is good, a clause: "all shapes within the limits of models", or what is not
 /// and what to do.
