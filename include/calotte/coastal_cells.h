@@ -39,13 +39,14 @@ struct CoastChanges {
   std::int64_t small_cells = 0;
   std::int32_t small_cell = -1; ///< the first one
 
+  /// Whether all values are equal.
   friend bool operator==(const CoastChanges&, const CoastChanges&) = default;
 };
 
 /// The cells of coastal_cells().
 struct CoastalCells {
-  Voronoi voronoi;
-  CoastChanges changes;
+  Voronoi voronoi;      ///< the cells, with their edges
+  CoastChanges changes; ///< from those of voronoi(mesh)
 };
 
 /// The cells of voronoi(mesh) in a bounded surface, in a form that models take:

@@ -43,7 +43,10 @@ Ids select_sites(const Mesh& mesh, const Points3& points,
 }
 
 Points3 points_of(const Mesh& mesh) {
-  return mesh.surface.is_sphere() ? Points3(mesh.points.colwise().normalized()) : mesh.points;
+  Points3 points = mesh.points;
+  for (Eigen::Index k = 0; mesh.surface.is_sphere() && k < points.cols(); ++k)
+    set_column(points, k, normalised(column(points, k)));
+  return points;
 }
 
 } // namespace
