@@ -5,6 +5,7 @@
 #include "options/files.h"
 #include "options/numbers.h"
 #include "options/ocean_options.h"
+#include "options/region_option.h"
 #include "run/interruption.h"
 #include "run/progress.h"
 #include "text/text.h"
@@ -27,6 +28,7 @@ namespace {
 
 struct CoastRequest {
   std::vector<std::string> coasts, passages, seeds;
+  std::string region, inside;
   WidthWords widths;
   double least_island = GeneraliseOptions{}.least_island;
   std::string output;
@@ -107,6 +109,8 @@ void run(const CoastRequest& request) {
     progress.stage("reading the coast");
     const Coast coast = read_coasts(request.coasts);
     options.least_island = request.least_island;
+    if (!request.region.empty())
+      options.within = region_of(request.region, request.inside, request.widths.radius);
     options.passages = read_all_lines(request.passages);
     options.seeds = read_seeds(request.seeds);
     const Widths widths = read_widths(request.widths).widths;
@@ -135,6 +139,14 @@ void add_coast(CLI::App& app) {
                "Largest change of the widths, in km per km, such as 0.03; > 0")
       ->needs("--cell-width");
   command
+      ->add_option(
+          "--region", request->region,
+          "Part of the sphere to which the sea belongs: a shape such as box=-6,30,37,46, or "
+          "a file; see calotte help region. Its sides in the sea are open boundaries, "
+          "which --open of other commands takes. Default: the whole sphere")
+      ->type_name("SHAPE|FILE");
+  add_inside(*command, request->inside);
+  command
       ->add_option("--least-island", request->least_island,
                    "Islands of fewer cells become sea; >= 0.25. Default: 1.")
       ->type_name("CELLS");
@@ -155,8 +167,8 @@ void add_coast(CLI::App& app) {
       ->type_name("FILE")
       ->required();
   set_help(*command,
-           {.common = {"COAST", "--cell-width", "--gradient", "--least-island", "--passage",
-                       "--seed", "--output"},
+           {.common = {"COAST", "--cell-width", "--gradient", "--region", "--least-island",
+                       "--passage", "--seed", "--output"},
             .examples = {"calotte coast /usr/share/gmt-gshhg/binned_GSHHS_l.nc --cell-width 120km "
                          "-o sea.geojson",
                          "calotte coast land.geojson --cell-width rules.toml --passage "

@@ -25,6 +25,9 @@ struct GeneraliseOptions {
   /// their ends on to where the sea is as wide. Each 3 x points, directions, joined by arcs shorter
   /// than a half circle. Default: none.
   std::vector<Points3> passages = {};
+  /// The part of the sphere to which the sea belongs; its boundary counts as a coast, and is an
+  /// open one for a model. Default: the whole sphere.
+  Surface within = {};
   /// The sea is what is connected with one of these directions. Default: none, the largest part.
   Points3 seeds = {};
 };
@@ -38,13 +41,14 @@ struct ClosedSea {
 /// The sea at the widths of a grid.
 struct GeneralisedSea {
   Surface sea;                       ///< to the left of its rings, which do not meet
-  std::int64_t islands = 0;          ///< left out, of the coast's closed lines
+  std::int64_t islands = 0;          ///< left out, of all closed lines of the coast
   std::int64_t lakes = 0;            ///< left out in the same way
   std::vector<ClosedSea> parts = {}; ///< as wide as a cell, without a seed; largest first
   /// Between the sea and another part of it, or one that is left out, narrower than a cell; largest
   /// first. Those narrower than a third of a cell may be missing.
   std::vector<ClosedSea> straits = {};
-  std::vector<std::int64_t> stranded_passages = {}; ///< without effect, as they reach no sea
+  /// Those that reach no sea, and have no effect; without those outside GeneraliseOptions::within.
+  std::vector<std::int64_t> stranded_passages = {};
   double land_to_sea = 0;                           ///< steradians, by squares and lost islands
   double sea_to_land = 0;                           ///< steradians, by squares
   /// The largest distance of the rings from the coast in local widths, away from passages, at ends
@@ -67,7 +71,8 @@ struct GeneralisedSea {
 ///
 /// \param coast land to the left of its rings, which may be simplified, see Coast.
 /// \param widths of the sphere, a demand everywhere.
-/// \throws Error invalid_argument: an option out of range; a coast without shores, or whose land is
+/// \throws Error invalid_argument: an option out of range, such as a part of a plane; a coast
+/// without shores, or whose land is
 ///         all smaller than the least island; naming ring and corner as shores(); widths of a
 ///         plane, naming a point without a demand; widths that require more than 20 million points;
 ///         naming the seed, one on land or in a part that becomes land; widths wider than the sea.

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "density/hexagons.h"
 #include "domain/lines.h"
+#include "domain/surface.h"
 #include "oceans/fitted_rings.h"
 #include "oceans/level_rings.h"
 #include "oceans/openings.h"
@@ -62,7 +63,8 @@ std::int32_t part_of_seed(const ShoreMesh& shore, const Parts& parts, const Poin
   require(seeds.col(number).allFinite() && !seeds.col(number).isZero(0),
           "seed {} is no direction; give three finite numbers that are not all 0", number);
   const Vec3 seed = normalised(column(seeds, number));
-  require(shore.sides.is_sea(seed), "seed {} is on land; give a point in the sea", number);
+  require(shore.seas.sides.is_sea(seed), "seed {} is on land; give a point in the sea", number);
+  require(shore.seas.has(seed), "seed {} is outside the region; give a point in its sea", number);
   double least = infinity;
   std::int32_t part = -1;
   for (std::int64_t site = 0; site < shore.size(); ++site) {
@@ -242,10 +244,19 @@ void set_displacements(const ShoreMesh& shore, const Widths& widths,
   result.usual_displacement = displaced[(95 * displaced.size() - 1) / 100];
 }
 
+/// Whether no corner of a line is in a part of the sphere.
+bool is_beyond(const Surface& within, const Points3& line) {
+  for (const auto& corner : line.colwise())
+    if (within.contains(corner))
+      return false;
+  return true;
+}
+
 void require_options(const Widths& widths, const GeneraliseOptions& options) {
   require(std::isfinite(options.least_island) && options.least_island >= 0.25,
           "the least island has {} cells; give 0.25 or more", options.least_island);
   require(!widths.is_of_plane(), "coasts are of the sphere; give widths of it");
+  domain_detail::require_sphere(options.within, "the sea of a coast is");
   for (std::size_t k = 0; k < options.passages.size(); ++k)
     domain_detail::checked_line(options.passages[k], static_cast<std::int64_t>(k), true);
 }
@@ -256,7 +267,7 @@ GeneralisedSea generalised_sea(const Coast& coast, const Widths& widths,
                                const GeneraliseOptions& options) {
   require_options(widths, options);
   const LargeCoast large = without_small_cells(coast, widths, options.least_island);
-  ShoreMesh shore(large.coast, widths, options.passages);
+  ShoreMesh shore(large.coast, widths, options.passages, options.within);
   const std::vector<Points3> lines = continued_passages(shore, options.passages);
   if (!lines.empty())
     shore.at.from_passage = near_distances_at(LineDistance(lines, {}), shore.at);
@@ -278,6 +289,9 @@ GeneralisedSea generalised_sea(const Coast& coast, const Widths& widths,
   result.islands = large.islands;
   result.lakes = large.lakes;
   result.stranded_passages = passages.stranded;
+  std::erase_if(result.stranded_passages, [&](std::int64_t passage) {
+    return is_beyond(options.within, options.passages[static_cast<std::size_t>(passage)]);
+  });
   result.land_to_sea = large.islands_area;
   result.sea_to_land = large.lakes_area;
   result.sea =

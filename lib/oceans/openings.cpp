@@ -11,11 +11,37 @@
 
 namespace calotte::oceans_detail {
 
-ShoreMesh::ShoreMesh(const Coast& from, const Widths& widths, const std::vector<Points3>& lines)
-    : sides(coast_arcs(from)), coast(shores(from), {}) {
+namespace {
+
+/// The rings that bound a part of the sphere, closed.
+std::vector<Points3> border_lines(const Surface& within) {
+  std::vector<Points3> lines;
+  for (const DoubleMatrix& ring : within.rings()) {
+    Points3& line = lines.emplace_back(3, ring.cols() + 1);
+    line.leftCols(ring.cols()) = ring;
+    line.col(ring.cols()) = ring.col(0);
+  }
+  return lines;
+}
+
+std::vector<Points3> shores_and_border(const Coast& coast, const Surface& within) {
+  std::vector<Points3> lines = shores(coast);
+  for (Points3& line : border_lines(within))
+    lines.push_back(std::move(line));
+  return lines;
+}
+
+} // namespace
+
+ShoreMesh::ShoreMesh(const Coast& from, const Widths& widths, const std::vector<Points3>& lines,
+                     const Surface& within)
+    : seas{CoastSides(coast_arcs(from)), within, std::nullopt},
+      coast(shores_and_border(from, within), {}) {
+  if (within.is_bounded())
+    seas.border.emplace(border_lines(within), Surface());
   if (!lines.empty())
     passages.emplace(lines, Surface());
-  at = shore_points(coast, sides, passages, widths);
+  at = shore_points(coast, seas, passages, widths);
   mesh = delaunay(at.points);
   neighbours = calotte::neighbours(mesh);
 }

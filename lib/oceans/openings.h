@@ -29,15 +29,17 @@ inline constexpr double beyond = 0.6;
 
 /// A coast and the mesh of the points around it.
 struct ShoreMesh {
-  CoastSides sides;
-  LineDistance coast;
+  Seas seas;
+  LineDistance coast;                   ///< and the boundary of the seas' part of the sphere
   std::optional<LineDistance> passages; ///< if there are any
   ShorePoints at;                       ///< the sites
   Mesh mesh;
   IdLists neighbours;
 
+  /// \param lines passages. \param within see GeneraliseOptions.
   /// \throws Error as shore_points().
-  ShoreMesh(const Coast& from, const Widths& widths, const std::vector<Points3>& lines);
+  ShoreMesh(const Coast& from, const Widths& widths, const std::vector<Points3>& lines,
+            const Surface& within);
 
   std::int64_t size() const { return at.size(); }
   double from_coast(std::int64_t site) const {

@@ -62,7 +62,18 @@ struct Level {
   ShorePoints at;
 };
 
-Level make_level(std::vector<Square> squares, const LineDistance& coast, const CoastSides& sides,
+/// The distances that count: beyond the border those from the border alone, so that no points
+/// resolve the coast there.
+void take_border(const Seas& seas, ShorePoints& at) {
+  if (!seas.border)
+    return;
+  const std::vector<double> from_border = distances_at(*seas.border, at.points);
+  for (Eigen::Index k = 0; k < at.points.cols(); ++k)
+    if (!seas.within.contains(at.points.col(k)))
+      at.from_coast[static_cast<std::size_t>(k)] = from_border[static_cast<std::size_t>(k)];
+}
+
+Level make_level(std::vector<Square> squares, const LineDistance& coast, const Seas& seas,
                  const std::optional<LineDistance>& passages, const Widths& widths) {
   const auto count = std::ssize(squares);
   Level level{std::move(squares), {}};
@@ -76,12 +87,13 @@ Level make_level(std::vector<Square> squares, const LineDistance& coast, const C
   }
   at.widths = demanded_at(widths, at.points);
   at.from_coast = distances_at(coast, at.points);
+  take_border(seas, at);
   at.from_passage =
       passages ? distances_at(*passages, at.points)
                : std::vector<double>(level.squares.size(), std::numeric_limits<double>::infinity());
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k != end; ++k)
-      if (!sides.is_sea(column(at.points, k)))
+      if (!seas.has(column(at.points, k)))
         at.from_coast[static_cast<std::size_t>(k)] *= -1;
   });
   return level;
@@ -132,7 +144,7 @@ std::vector<double> near_distances_at(const LineDistance& lines, const ShorePoin
   });
 }
 
-ShorePoints shore_points(const LineDistance& coast, const CoastSides& sides,
+ShorePoints shore_points(const LineDistance& coast, const Seas& seas,
                          const std::optional<LineDistance>& passages, const Widths& widths) {
   constexpr std::size_t most = 20'000'000;
   ShorePoints all;
@@ -140,7 +152,7 @@ ShorePoints shore_points(const LineDistance& coast, const CoastSides& sides,
   for (std::vector<Square> squares = first_squares(); !squares.empty();) {
     require(points.size() + squares.size() <= most,
             "the widths require more than 20 million points along the coast; give larger ones");
-    const Level level = make_level(std::move(squares), coast, sides, passages, widths);
+    const Level level = make_level(std::move(squares), coast, seas, passages, widths);
     squares.clear();
     for (std::size_t i = 0; i < level.squares.size(); ++i) {
       const ShorePoints& at = level.at;

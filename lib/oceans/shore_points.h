@@ -5,6 +5,7 @@
 #include "oceans/coast_sides.h"
 #include "oceans/room.h"
 
+#include <calotte/surface.h>
 #include <calotte/widths.h>
 
 #include <optional>
@@ -43,10 +44,21 @@ std::vector<double> distances_at(const LineDistance& lines, const Points3& point
 /// The same up to one and a half widths; larger ones may come out larger than they are.
 std::vector<double> near_distances_at(const LineDistance& lines, const ShorePoints& at);
 
-/// \param coast distances from its lines. \param sides of the same.
+/// The seas of a coast within a part of the sphere.
+struct Seas {
+  CoastSides sides;
+  Surface within;                     ///< the whole sphere, or a part
+  std::optional<LineDistance> border; ///< distances from the boundary of the part
+
+  bool has(const Vec3& point) const {
+    return sides.is_sea(point) && within.contains({point.x, point.y, point.z});
+  }
+};
+
+/// \param coast distances from its lines, and from the border of the seas.
 /// \param passages distances from them, if there are any.
 /// \throws Error invalid_argument as demanded_at(), and for more than 20 million points.
-ShorePoints shore_points(const LineDistance& coast, const CoastSides& sides,
+ShorePoints shore_points(const LineDistance& coast, const Seas& seas,
                          const std::optional<LineDistance>& passages, const Widths& widths);
 
 } // namespace calotte::oceans_detail

@@ -48,6 +48,17 @@ bool is_sea(const GeneralisedSea& sea, double longitude, double latitude) {
   return sea.sea.contains(direction(longitude, latitude));
 }
 
+/// The area that two discs on the sphere share whose second has its centre on the boundary of the
+/// first, in the plane that touches them; radians.
+double lens_area(double first, double second) {
+  const double half = second * second / (2 * first); // from the second's centre to the chord
+  const auto segment = [](double radius, double to_chord) {
+    return radius * radius * std::acos(to_chord / radius) -
+           to_chord * std::sqrt(radius * radius - to_chord * to_chord);
+  };
+  return segment(first, first - half) + segment(second, half);
+}
+
 GeneralisedSea at_width(const std::vector<Points3>& rings, const GeneraliseOptions& options = {}) {
   return generalised_sea(coast_of(rings), width, options);
 }
@@ -163,6 +174,40 @@ TEST_CASE("narrow capes go, and narrow isthmuses and long islands stay") {
       CHECK(!is_sea(bridge, longitude, latitude));
   CHECK(is_sea(bridge, 5, 5));
   CHECK(is_sea(bridge, 5, -5));
+}
+
+TEST_CASE("the sea within a part of the sphere ends at its boundary") {
+  // An island at the boundary, one within, and one beyond.
+  const std::vector<Points3> islands{disc(10, 0, 3), disc(0, 0, 3), disc(30, 0, 3)};
+  GeneraliseOptions options;
+  options.within = circle(direction(0, 0), 10 * degree);
+  options.passages = {directions({{25, 0}, {40, 0}})};
+  const GeneralisedSea sea = at_width(islands, options);
+  CHECK(sea.sea.rings().size() == 2);
+  CHECK(sea.stranded_passages.empty());
+  CHECK(is_sea(sea, -9, 0));
+  CHECK(is_sea(sea, 0, 9));
+  CHECK(!is_sea(sea, -11, 0));
+  CHECK(!is_sea(sea, 8, 0));
+  CHECK(!is_sea(sea, 20, 0));
+  const double expected = options.within.area() - circle(direction(0, 0), 3 * degree).area() -
+                          lens_area(10 * degree, 3 * degree);
+  CHECK(sea.sea.area() / expected == doctest::Approx(1).epsilon(0.02));
+  CHECK(sea.displacement < 0.7);
+  options.passages = {directions({{-2, 0}, {2, 0}}), directions({{0, 0}, {0, 1}})};
+  CHECK(is_sea(at_width(islands, options), 0, 0) == false);
+
+  const auto refused = [&](const GeneraliseOptions& bad) {
+    return message_of([&] { at_width(islands, bad); });
+  };
+  options.passages = {};
+  options.seeds = directions({{20, 10}});
+  CHECK(refused(options) == "seed 0 is outside the region; give a point in its sea");
+  options.seeds = {};
+  options.within = circle(direction(30, 0), 2 * degree);
+  CHECK(refused(options).find("no part of the sea is as wide as a cell") == 0);
+  options.within = Surface::plane();
+  CHECK(refused(options).find("the sea of a coast is for the sphere") == 0);
 }
 
 TEST_CASE("a thin ring of land keeps the sea within it apart") {
