@@ -92,24 +92,6 @@ Mesh without_hull(Points3&& points, const Triangles& triangles, const Surface& s
 
 namespace {
 
-/// Flags the triangles whose centre is on the surface, see Cells::has_centre().
-template <Space S> std::vector<std::uint8_t> with_centre(const Mesh& mesh, Boundary boundary) {
-  Cells<S> cells(mesh.surface, boundary);
-  cells.move(mesh.points);
-  std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()));
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    keep[static_cast<std::size_t>(t)] = cells.has_centre(column(mesh.points, mesh.triangles(0, t)),
-                                                         column(mesh.points, mesh.triangles(1, t)),
-                                                         column(mesh.points, mesh.triangles(2, t)))
-                                            ? 1
-                                            : 0;
-  return keep;
-}
-
-} // namespace
-
-namespace {
-
 /// Flags the triangles on the surface. \param edges of the boundary, from the first site to the
 /// second with the surface to their left, which triangles to keep do not cross.
 std::vector<std::uint8_t> left_of(const std::vector<Ends>& edges, const Connectivity& mesh) {
@@ -180,13 +162,17 @@ Mesh mesh_to_boundary(Points3&& points, const Surface& surface,
   });
 }
 
-Mesh inner_mesh(Mesh&& mesh, Boundary boundary) {
-  const bool plane = !mesh.surface.is_sphere();
-  if (!mesh.surface.is_bounded() || (plane && boundary == Boundary::clip))
+Mesh inner_mesh(Mesh&& mesh) {
+  if (!mesh.surface.is_bounded() || !mesh.surface.is_sphere())
     return std::move(mesh);
-  std::vector<std::uint8_t> keep =
-      plane ? with_centre<Plane>(mesh, boundary) : with_centre<Sphere>(mesh, boundary);
-  Triangles triangles = without_small_fans(mesh.triangles, mesh.points.cols(), keep);
+  Cells<Sphere> cells(mesh.surface);
+  cells.move(mesh.points);
+  std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const auto corner = [&](int v) { return column(mesh.points, mesh.triangles(v, t)); };
+    keep[static_cast<std::size_t>(t)] = cells.has_centre(corner(0), corner(1), corner(2)) ? 1 : 0;
+  }
+  Triangles triangles = without_small_fans(mesh.triangles, mesh.points.cols(), std::move(keep));
   std::vector<std::int32_t> sites = std::move(mesh.site_of_input);
   const Surface surface = mesh.surface;
   mesh = make_mesh(std::move(mesh.points), std::move(triangles), surface);

@@ -25,9 +25,9 @@ struct BoundaryGenerators {
 /// triangles that has_centre() allows.
 Mesh mesh_to_boundary(Points3&& points, const Surface& surface, const BoundaryGenerators& boundary);
 
-/// The part of a mesh that a bounded surface contains, see Boundary. Triangles that touch the
-/// others at a site only in a vertex are removed. A mesh in a plane whose boundary clips cells, and
-/// one without a boundary, is returned whole.
-Mesh inner_mesh(Mesh&& mesh, Boundary boundary);
+/// The part of a mesh whose cells the boundary clips, see Boundary::clip. Triangles that touch the
+/// others at a site only in a vertex are removed. A mesh in a plane, and one without a boundary, is
+/// returned whole.
+Mesh inner_mesh(Mesh&& mesh);
 
 } // namespace calotte::cvt_detail
