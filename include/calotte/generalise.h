@@ -49,8 +49,8 @@ struct GeneralisedSea {
   std::vector<ClosedSea> straits = {};
   /// Those that reach no sea, and have no effect; without those outside GeneraliseOptions::within.
   std::vector<std::int64_t> stranded_passages = {};
-  double land_to_sea = 0;                           ///< steradians, by squares and lost islands
-  double sea_to_land = 0;                           ///< steradians, by squares
+  double land_to_sea = 0; ///< steradians, by squares and lost islands
+  double sea_to_land = 0; ///< steradians, by squares
   /// The largest distance of the rings from the coast in local widths, away from passages, at ends
   /// and thirds of their arcs.
   double displacement = 0;

@@ -361,9 +361,9 @@ struct Deviation {
 
 /// Compares the variables of a NetCDF mesh file with values derived from its mesh, and with the
 /// rules of its format (MPAS, UGRID, SCRIP, ESMF); and the boundary in files of FESOM, SCHISM,
-/// ADCIRC, SMS and Gmsh with that of the mesh, and with the rules of these models. Absent variables are not checked. The file's
-/// numbering of edges and vertices, the first entry of a cyclic list, and the first cell of an edge
-/// are free.
+/// ADCIRC, SMS and Gmsh with that of the mesh, and with the rules of these models. Absent variables
+/// are not checked. The file's numbering of edges and vertices, the first entry of a cyclic list,
+/// and the first cell of an edge are free.
 ///
 /// The mesh is that of the cells and of cellsOnVertex (MPAS), or of the polygons. All else follows
 /// from it, so that a wrong position of a cell makes many variables deviate.

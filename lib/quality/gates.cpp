@@ -129,11 +129,9 @@ std::vector<Gate> gates(const Voronoi& voronoi, const GridDemands& demands, doub
   const DoubleVector widths = voronoi_detail::smoothed_log_spacings(voronoi, passes);
 
   std::vector<Gate> found;
-  found.push_back(on_cells("sides of a cell, least",
-                           limit_of(static_cast<double>(demands.least_sides)), true,
-                           [&](std::int64_t i) {
-                             return is_at_boundary(voronoi, i) ? no_value : sides(i);
-                           }));
+  found.push_back(
+      on_cells("sides of a cell, least", limit_of(static_cast<double>(demands.least_sides)), true,
+               [&](std::int64_t i) { return is_at_boundary(voronoi, i) ? no_value : sides(i); }));
   found.push_back(on_cells("sides of a cell, most", {}, false, sides));
   found.push_back(on_edges("dv / dc, least", limit_of(demands.least_dv_over_dc), true,
                            [&](std::int64_t e) { return voronoi.dv[e] / voronoi.dc[e]; }));

@@ -14,9 +14,9 @@ namespace calotte::io_detail {
 /// model that reads it:
 ///
 /// - lists of nodes (SCHISM, ADCIRC): they follow outer edges, and each outer edge is in one of
-///   them, but where dikes are listed. The boundary passes each node once, each node has a triangle,
-///   and the stated numbers of listed nodes are theirs. SCHISM wants no closed open list, ADCIRC
-///   land to the right.
+///   them, but where dikes are listed. The boundary passes each node once, each node has a
+///   triangle, and the stated numbers of listed nodes are theirs. SCHISM wants no closed open list,
+///   ADCIRC land to the right.
 /// - strings and lines (SMS, Gmsh) follow edges.
 /// - flags of coast (FESOM): those other than 0 stand at the nodes of the boundary, if there are
 ///   any. Each triangle has two neighbours, and each node a triangle.
