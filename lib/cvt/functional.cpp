@@ -200,7 +200,7 @@ public:
     tessellation_.end_along(std::move(along));
   }
   std::int64_t glide(Points3& points, const ShapeLimits& limits) override {
-    return cvt_detail::glide(tessellation_, points, local_input(), limits);
+    return cvt_detail::glide(tessellation_, points, {density_, coarse_, fixed_, false}, limits);
   }
   std::int64_t polish(Points3& points, int raised) override;
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
@@ -304,7 +304,7 @@ template <Space S> std::int64_t FunctionalOver<S>::polish(Points3& points, int r
                                   raised < 3 ? pinned_on_line : pinned_at_end);
   };
   if (raised > 1)
-    cvt_detail::glide(tessellation_, points, {density_, coarse_, pins()}, penalty_.limits);
+    cvt_detail::glide(tessellation_, points, {density_, coarse_, pins(), false}, penalty_.limits);
   return cvt_detail::polish(tessellation_, points, {density_, coarse_, pins()}, penalty_);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -13,6 +14,13 @@ namespace calotte::cvt_detail {
 namespace {
 
 using Seeds = std::vector<std::array<std::int32_t, 2>>;
+using Sites3 = std::array<std::int32_t, 3>; ///< sites, ascending
+
+Sites3 ascending_corners(const Connectivity& mesh, std::int32_t t) {
+  Sites3 sites{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
+  std::sort(sites.begin(), sites.end());
+  return sites;
+}
 
 /// The triangles with shapes farther beyond the limits than `beyond`, the worst ones first. The
 /// triangulation alone determines the order.
@@ -26,18 +34,13 @@ Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
                              input.fixed};
   struct Shape {
     double excess;
-    std::array<std::int32_t, 3> sites; ///< ascending
+    Sites3 sites;
     std::int32_t triangle;
   };
   std::vector<Shape> found;
   for (const std::int32_t t : distorted(shapes))
-    if (const double excess = shape_excess(shapes, t); excess > beyond) {
-      std::array<std::int32_t, 3> sites;
-      for (int v = 0; v < 3; ++v)
-        sites[static_cast<std::size_t>(v)] = tessellation.mesh().triangles(v, t);
-      std::sort(sites.begin(), sites.end());
-      found.push_back({excess, sites, t});
-    }
+    if (const double excess = shape_excess(shapes, t); excess > beyond)
+      found.push_back({excess, ascending_corners(tessellation.mesh(), t), t});
   std::sort(found.begin(), found.end(), [](const Shape& a, const Shape& b) {
     return std::tie(b.excess, a.sites) < std::tie(a.excess, b.sites);
   });
@@ -89,7 +92,8 @@ std::vector<std::uint8_t> released(const Tessellation<S>& tessellation, const Po
 template <Space S>
 std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
                     const ShapePenalty& penalty) {
-  constexpr int most_rounds = 4; // shapes near each other are polished one after another
+  // Shapes near each other are polished one after another, each once.
+  constexpr int most_rounds = 4;
   std::int64_t count = 0;
   const auto task = [&](std::size_t, Subdomain<S>& part) {
     return polish_part(part, input, penalty);
@@ -97,11 +101,16 @@ std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalI
   tessellation.change_mesh(
       points, [&](Connectivity& mesh) -> std::optional<std::vector<std::int32_t>> {
         std::vector<std::int32_t> changed;
+        std::set<Sites3> tried;
+        const auto corners = [&](std::int32_t t) { return ascending_corners(mesh, t); };
         for (int round = 0; round < most_rounds; ++round) {
-          const auto chosen =
-              choose_disjoint(mesh, worst_shapes(tessellation, points, input, penalty)).chosen;
+          Seeds seeds = worst_shapes(tessellation, points, input, penalty);
+          std::erase_if(seeds, [&](const auto& seed) { return tried.contains(corners(seed[0])); });
+          const auto chosen = choose_disjoint(mesh, seeds).chosen;
           if (chosen.empty())
             break;
+          for (const Surroundings& some : chosen)
+            tried.insert(corners(seeds[some.seed][0]));
           count += std::ssize(chosen);
           if (!work_in<S>(chosen, task, input, tessellation, mesh, points, changed))
             return std::nullopt;

@@ -29,14 +29,18 @@ template <Space S> struct PositionedMesh {
   std::int32_t site(std::int32_t t, int v) const { return mesh.triangles(v, t); }
   /// The triangle across from a vertex; negative if there is none.
   std::int32_t across(std::int32_t t, int v) const { return mesh.neighbours(v, t); }
-  /// Cells::has_centre(), but beside an edge of the boundary its side decides.
+  /// Cells::has_centre(), but beside an edge of the boundary its side decides. Generators away from
+  /// a boundary of generators form triangles on the surface only.
   bool has_centre(std::int32_t t) const {
+    bool touches = along.empty();
     for (int v = 0; v < 3 && !along.empty(); ++v) {
       const std::int32_t from = site(t, v), to = site(t, next_vertex(v));
       if (next_along(from) == to || next_along(to) == from)
         return next_along(from) == to;
+      touches = touches || next_along(from) >= 0;
     }
-    return cells.has_centre(position(site(t, 0)), position(site(t, 1)), position(site(t, 2)));
+    return !touches ||
+           cells.has_centre(position(site(t, 0)), position(site(t, 1)), position(site(t, 2)));
   }
 
 private:

@@ -65,8 +65,7 @@ Subdomain<S>::Subdomain(const Cells<S>& cells, const Connectivity& mesh, const P
 template <Space S> void Subdomain<S>::number_sites(const LocalInput& input) {
   std::vector<std::uint8_t> moves(part_.sites.size());
   std::transform(part_.sites.begin(), part_.sites.end(), moves.begin(), [&](std::int32_t site) {
-    return site < cells_.generator_count() &&
-           (input.fixed.empty() || input.fixed[static_cast<std::size_t>(site)] <= slides);
+    return site < cells_.generator_count() && input.moves(site);
   });
   for (const Submesh::RimEdge& edge : part_.rim)
     moves[static_cast<std::size_t>(edge.from)] = 0;
@@ -81,7 +80,7 @@ template <Space S> void Subdomain<S>::number_sites(const LocalInput& input) {
 template <Space S> void Subdomain<S>::find_sliders(const LocalInput& input) {
   constexpr double share = 0.05; // of the nearest neighbour's distance
   std::vector<std::int32_t> slider(static_cast<std::size_t>(movable()), -1);
-  for (std::int32_t i = 0; !input.fixed.empty() && i < movable(); ++i)
+  for (std::int32_t i = 0; input.slides && !input.fixed.empty() && i < movable(); ++i)
     if (input.fixed[static_cast<std::size_t>(part_.sites[static_cast<std::size_t>(i)])] == slides) {
       slider[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(sliders_.size());
       sliders_.push_back({i, infinite});
@@ -135,9 +134,10 @@ template <Space S> void Subdomain<S>::set_along(std::span<const std::int32_t> al
     if (along[static_cast<std::size_t>(part_.sites[i])] >= 0)
       local.emplace(part_.sites[i], static_cast<std::int32_t>(i));
   along_.assign(part_.sites.size(), -1);
-  for (const auto& [site, i] : local)
-    if (const auto next = local.find(along[static_cast<std::size_t>(site)]); next != local.end())
-      along_[static_cast<std::size_t>(i)] = next->second;
+  for (const auto& [site, i] : local) {
+    const auto next = local.find(along[static_cast<std::size_t>(site)]);
+    along_[static_cast<std::size_t>(i)] = next != local.end() ? next->second : i; // or no other
+  }
 }
 
 template <Space S> void Subdomain<S>::set_patch() {

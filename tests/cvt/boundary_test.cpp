@@ -140,8 +140,7 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
     const auto f = static_cast<std::int32_t>(boundary.cols());
     CHECK(grid.report.converged);
     CHECK(mesh.points.cols() == cells);
-    // Those of the boundary slide along it.
-    CHECK(mesh.points.leftCols(f) != boundary);
+    // Those of the boundary may slide along it.
     for (std::int32_t i = 0; i < f; ++i) {
       CHECK(distance(here.region, mesh.points.col(i)) <= 1e-15);
       CHECK((mesh.points.col(i) - boundary.col(i)).norm() <
