@@ -26,6 +26,9 @@ nearest: int = int(calotte.locate(mesh, [(0.0, 90.0)]).nearest[0])
 finer = calotte.refine(grid.mesh, region="circle=10,50,1000km", factor=2, nearest="kind")
 added: int = finer.patches[0].added + len(finer.mesh) + int(finer.new_of_old[0])
 sums: float = float(calotte.interpolation_weights(mesh, calotte.raster(12, 6)).apply([1.0] * 4).sum())
+sea = calotte.generalised_sea(["land.geojson"], "100km", passages=[[(180.0, 0.0), (-155.0, 0.0)]], seeds=(0.0, 0.0))
+closed: float = sea.parts[0].area + sea.displacement + calotte.plan(100, surface=sea).cells
+sea.sea.write("sea.geojson")
 mean: float = float(calotte.interpolate(mesh, [1.0] * 4, [(0.0, 90.0)], method="natural").mean())
 """
 

@@ -22,11 +22,11 @@ GROUPS = [
                 "bisected_icosahedron", "lat_lon_sphere", "cubed_sphere", "hexagonal_lattice",
                 "bisect", "from_lonlat", "to_lonlat"]),
     ("Surfaces", ["circle", "ellipse", "box", "channel", "polygon", "rectangle", "plane", "periodic_box",
-                  "planar_polygon"]),
+                  "planar_polygon", "generalised_sea"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
 WIDTHS = ["by_latitude", "by_distance", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
-KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
+KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "GeneralisedSea", "ClosedSea", "Quality",
          "Unit", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Gate", "Density", "CellWidth", "Widths", "Error"]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _calotte, _labels
 from ._calotte import Error
+from ._oceans import GeneralisedSea
 
 EARTH_RADIUS_KM = 6371.0
 _FOLDER = os.path.dirname(__file__)
@@ -347,6 +348,8 @@ def surface(value, plane=None, earth_radius=EARTH_RADIUS_KM) -> _calotte.Surface
         value = _calotte.Surface()
     elif isinstance(value, str) or hasattr(value, "__fspath__"):
         value = _named(str(value), plane, earth_radius)
+    elif isinstance(value, GeneralisedSea):
+        value = value.sea
     if isinstance(value, _calotte.Surface) and plane in (None, not value.is_sphere):
         return value
     kinds = [text for kind, text in _SURFACES.items() if plane in (None, kind)]

@@ -46,7 +46,7 @@ def _with_article(name):
     return name if name.endswith("s") else f"{'an' if name[0] in 'AEIOUaeiou' else 'a'} {name}"
 
 
-def _described(value):
+def described(value):
     if value is None or isinstance(value, (str, numbers.Number, np.bool_)):
         return repr(value)
     if isinstance(value, np.ndarray):
@@ -77,7 +77,7 @@ def _require(given, kinds):
     for name, value in given.items():
         expected = kinds.get(name)
         if expected and not any(_fits(value, kind) for kind in expected):
-            raise Error(f"{name} is {_described(value)}; give {_expected(expected)}{_hint(value, expected)}") from None
+            raise Error(f"{name} is {described(value)}; give {_expected(expected)}{_hint(value, expected)}") from None
 
 
 def _bound(signature, name, given, words):
@@ -110,7 +110,7 @@ def checked(function):
             _require(bound.arguments, kinds)
             if "incompatible function arguments" not in str(error):  # of the compiled part
                 raise
-            what = ", ".join(f"{name} is {_described(value)}" for name, value in bound.arguments.items())
+            what = ", ".join(f"{name} is {described(value)}" for name, value in bound.arguments.items())
             raise Error(f"{function.__name__}() cannot use an argument: {what}; see help({function.__name__})") from None
 
     return call

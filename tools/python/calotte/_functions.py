@@ -12,18 +12,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments, _calotte, _display, _fields, _labels, _units
+from . import _arguments, _border, _calotte, _display, _fields, _labels, _units
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import (Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi)
 from ._fields import content_of
+from ._oceans import ClosedSea, GeneralisedSea
 
 Array = NDArray[np.float64]
 Path = str | os.PathLike[str]
 Grid = Mesh | Polygons
 DensityLike = str | Sequence[str] | Density | Callable[[Array], ArrayLike]
 WidthLike = Any  #: a number, a file, (values, lon, lat or x, y), a DataArray or a function
-SurfaceLike = Path | Surface
+SurfaceLike = Path | Surface | GeneralisedSea
 Progress = Callable[[dict[str, Any]], "bool | None"]
 
 _USUAL = _calotte.Recipe()  #: the library's defaults
@@ -775,8 +776,8 @@ def cvt(cells: int | None = None, *, density: DensityLike | None = None,
         it; or a function of arrays of x and y.
     surface: where the cells are. Default: the sphere. A part of it is one of circle(), ellipse(),
         box(), channel() or polygon(); text as of `calotte cvt --region`, such as
-        "circle=-105,40,1000km" or "box=-20,30,40,60"; or a file of a region. A plane is one of
-        rectangle(), periodic_box() or planar_polygon().
+        "circle=-105,40,1000km" or "box=-20,30,40,60"; a file of a region; or the result of
+        generalised_sea(). A plane is one of rectangle(), periodic_box() or planar_polygon().
     points: the generators to begin with: n x 3 directions, or n x 2 longitudes and latitudes in
         degrees; in a plane n x 2.
     fixed: generators that stay, as points; the first cells of the result. The number of cells
@@ -1432,17 +1433,43 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
                **options)
     density = _arguments.density(None, widths._field(grid.mesh.surface))
     output = _calotte.Output(str(path), "mpas", sphere_radius, density, True, [], "", None, None,
-                             earth_radius)
+                             earth_radius, np.empty(0))
     return _calotte.write_limited_area(output, grid.mesh, surface)
 
 
-def _files(value):
+def _items(value):
+    """One file or several, or other items; none of None."""
+    return [] if value is None else [value] if isinstance(value, (str, os.PathLike)) else list(value)
+
+
+def _files(value, what):
     """The names of one file or of several."""
-    if value is None:
-        return []
-    if isinstance(value, (str, os.PathLike)):
-        return [str(value)]
-    return [str(path) for path in value]
+    files = _items(value)
+    for file in files:
+        if not isinstance(file, (str, os.PathLike)):
+            raise Error(f"{what} holds {_border.described(file)}; give the name of a file, or a list of such")
+    return [str(file) for file in files]
+
+
+def _seeds(points):
+    """One point or several in the sea, n x 3."""
+    given = np.empty((0, 2)) if np.size(points) == 0 else np.atleast_2d(_arguments.numbers(points, "seeds"))
+    return _arguments.sphere_points(given, "seeds")
+
+
+def _passages(given):
+    """The lines of files, or of arrays, n x 3 each."""
+    lines = []
+    for each in _items(given):
+        is_file = isinstance(each, (str, os.PathLike))
+        lines += _calotte.read_lines(str(each)) if is_file else [_arguments.sphere_points(each, "points of passages")]
+    return lines
+
+
+def _warn_of_passages(stranded, where):
+    if stranded:
+        _arguments.warn(f"passages {where}, without effect: {', '.join(map(str, stranded))}; begin and end them in the "
+                        "sea")
 
 
 def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = None,
@@ -1480,19 +1507,53 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     if raster_values not in ("height", "sea-fraction", "land-fraction"):
         raise Error(f"raster_values is {raster_values!r}; give height, sea-fraction or "
                     "land-fraction")
-    points = np.empty((0, 2)) if np.size(seeds) == 0 else np.atleast_2d(_arguments.numbers(seeds, "seeds"))
-    words = {"land": _files(land) + _files(coast), "passages": _files(passages),
-             "barriers": _files(barriers), "raster": "" if raster is None else str(raster),
+    words = {"land": _files(land, "land") + _files(coast, "coast"), "passages": _files(passages, "passages"),
+             "barriers": _files(barriers, "barriers"), "raster": "" if raster is None else str(raster),
              "raster_variable": raster_variable, "raster_values": raster_values, "field": field,
              "field_file": "" if field_file is None else str(field_file), "sea_from": sea_from,
              "sea_below": sea_below, "land_fraction": land_fraction, "least_area": least_area,
              "sea_ice_latitude": sea_ice_latitude,
              "land_mesh": "" if land_mesh is None else str(land_mesh)}
-    report = _calotte.cull(str(source), str(target), words, fill,
-                           _arguments.sphere_points(points, "seeds"),
+    report = _calotte.cull(str(source), str(target), words, fill, _seeds(seeds),
                            "" if mask is None else str(mask),
                            "" if cell_map is None else str(cell_map), sphere_radius, model)
-    if report["stranded_passages"]:
-        _arguments.warn(f"passages on land only, without effect: {', '.join(map(str, report['stranded_passages']))}; "
-                        "begin and end them in the sea")
+    _warn_of_passages(report["stranded_passages"], "on land only")
     return report
+
+
+def generalised_sea(coast: Path | Sequence[Path], cell_width: WidthLike, *, least_island: float = 1.0,
+                    passages: Path | Sequence[Path | ArrayLike] | None = None, seeds: ArrayLike = (),
+                    earth_radius: float = EARTH_RADIUS_KM) -> GeneralisedSea:
+    """The region of the sea at the widths of a grid, for a grid that ends at the coast, as `calotte
+    coast` makes it.
+
+    With the local width w, bays and straits narrower than w become land, and so do the seas behind
+    them. Capes narrower than w become sea. Land between two parts of the sea stays. The rings have
+    corners about w apart, on the coast where it is within w/2.
+
+    coast: GeoJSON of land, or a binned file of GSHHG; one or several.
+    cell_width, earth_radius: as for cvt(); rules must give a width everywhere.
+    least_island: islands and lakes of fewer cells do not count; from 0.25 on.
+    passages: lines along which the sea is a cell wide at least, also over land, such as straits, and
+        from their ends on to where the sea is as wide: GeoJSON, one file or several; or arrays as of
+        lines of cvt().
+    seeds: points in the sea, longitude and latitude in degrees. The region is what is connected with
+        one of them; default the largest part of the sea.
+    Returns a GeneralisedSea, a surface of cvt() and others; Surface.write() makes a file of it.
+    Raises Error, with the number of the seed or of the passage.
+    """
+    widths = _arguments.rule(cell_width, earth_radius=earth_radius)
+    if widths.of_plane:
+        raise Error("cell_width is of a plane, and coasts are of the sphere; give widths in km")
+    try:
+        made = _calotte.generalised_sea(_files(coast, "coast"), widths.on_sphere(earth_radius), least_island,
+                                        _passages(passages), _seeds(seeds))
+    except Error as error:
+        if str(error).startswith("line "):  # such as "line 0, point 3 is no direction"
+            error.args = (f"passages: {error}",)
+        raise
+    for name in ("parts", "straits"):
+        made[name] = tuple(ClosedSea(*row) for row in made[name])
+    made["stranded_passages"] = tuple(made["stranded_passages"])
+    _warn_of_passages(made["stranded_passages"], "that no sea of the region reaches")
+    return GeneralisedSea(**made)

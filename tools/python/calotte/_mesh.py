@@ -119,6 +119,11 @@ def _contains(surface, points):
     return _calotte.contains(surface, _arguments.points_of(surface, points))
 
 
+def _write_region(surface, path):
+    """Writes a region of the sphere to GeoJSON (.geojson, .json), a `surface` of functions and `--region` of the command."""
+    _calotte.write_region(str(path), surface)
+
+
 # ---- What the command prints of operators
 
 def _at(norms):
@@ -158,6 +163,7 @@ _calotte.ErrorNorms.at = property(_at, doc=_at.__doc__)
 _calotte.OperatorErrors.wave_step = _wave_step
 _calotte.OperatorErrors.diffusion_step = _diffusion_step
 _calotte.Surface.contains = _contains
+_calotte.Surface.write = _write_region
 for _class in (_calotte.Mesh, _calotte.Polygons):
     _class.fields = property(_file_fields, doc=_file_fields.__doc__)
     _class.earth_radius = property(_earth_radius, doc=_earth_radius.__doc__)

@@ -32,6 +32,7 @@ PYBIND11_MODULE(_calotte, module) {
   add_tessellations(module);
   add_contents(module);
   add_files(module);
+  add_oceans(module);
   add_changes(module);
   add_field_grids(module);
 }

@@ -20,6 +20,7 @@ void add_points(pybind11::module_& module);
 void add_positions(pybind11::module_& module);
 void add_contents(pybind11::module_& module);
 void add_files(pybind11::module_& module);
+void add_oceans(pybind11::module_& module);
 void add_changes(pybind11::module_& module);
 void add_field_grids(pybind11::module_& module);
 

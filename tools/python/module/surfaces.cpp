@@ -81,7 +81,7 @@ void add_surfaces(py::module_& module) {
   py::class_<Surface>(module, "Surface",
                       "Where points live: the sphere, a plane, or a part of them, of circle(),\n"
                       "ellipse(), box(), channel(), polygon(), rectangle(), periodic_box(),\n"
-                      "planar_polygon() or a file. Surface() is the sphere.")
+                      "planar_polygon(), generalised_sea() or a file. Surface() is the sphere.")
       .def(py::init<>())
       .def_property_readonly(
           "rings", &rings_of,
