@@ -4,6 +4,7 @@ import json
 import os
 import pickle
 import subprocess
+import warnings
 
 import numpy as np
 import pytest
@@ -129,3 +130,90 @@ def test_what_is_refused(land, text, arguments):
     with pytest.raises(calotte.Error) as caught:
         calotte.generalised_sea(**given)
     assert text in str(caught.value) and "\n" not in str(caught.value)
+
+
+# ---- Grids
+
+@pytest.fixture(scope="module")
+def island_grid():
+    """A mesh that ends at generators on the coast of a sea with an island."""
+    rings = [calotte.circle(OCEAN, radius).rings[0] for radius in (14, 5)]
+    sea = calotte.polygon(*rings, inside=(9, 0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return calotte.cvt(cell_width=200, surface=sea, boundary="generators").mesh
+
+
+def test_a_mesh_of_a_generalised_sea_ends_at_it(land):
+    made = calotte.generalised_sea(land, WIDTH, passages=[STRAIT])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        grid = calotte.cvt(cell_width=WIDTH, surface=made, boundary="generators")
+    assert grid.off_boundary == 0 and grid.mesh.surface == made.sea
+    outer = (grid.mesh.neighbours < 0).sum()
+    assert outer >= 0.7 * sum(len(ring) for ring in made.sea.rings)
+
+
+@pytest.mark.parametrize("name", ["hgrid.gr3", "fort.14", "sea.2dm", "nod2d.out"])
+def test_depths_of_coastal_models(tmp_path, island_grid, name):
+    depth = 100.0 + np.arange(len(island_grid))
+    levels = {"depth_levels": [0, 100, 1000, 6000]} if name == "nod2d.out" else {}
+    calotte.write(tmp_path / name, island_grid, fields={"depth": depth}, **levels)
+    read = calotte.read(tmp_path / name)
+    assert (np.abs(read.fields["depth"]) == depth).all()
+    assert len(read.triangles) == len(island_grid.triangles)
+    assert run("check", tmp_path / name).endswith("passed\n")
+    if levels:
+        assert len((tmp_path / "aux3d.out").read_text().split()) == 1 + 4 + len(depth)
+        (tmp_path / "again").mkdir()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", UserWarning)
+            warnings.filterwarnings("ignore", message=".* the format does not hold coast$")
+            calotte.write(tmp_path / "again" / name, read, **levels)
+        assert (tmp_path / "again/aux3d.out").read_text() == (tmp_path / "aux3d.out").read_text()
+
+
+def test_a_mesh_for_fesom_is_one_that_it_reads(tmp_path):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # shapes in corners of 90 degrees
+        mesh = calotte.cvt(cell_width=300, surface="box=0,-20,30,20", boundary="generators").mesh
+    calotte.write(tmp_path / "box.gr3", mesh)
+    depth = 1000.0 + np.round(mesh.lat)
+    for grid in (mesh, calotte.read(tmp_path / "box.gr3", fields="none")):
+        with pytest.warns(UserWarning, match="nod2d.out: without [1-4] triangles? of fewer than two neighbours, and "
+                                             "without the [1-4] sites? that .*: FESOM refuses them") as record:
+            calotte.write(tmp_path / "nod2d.out", grid, fields={"depth": depth}, depth_levels=[0, 10, 2000])
+        assert record[0].filename == __file__
+        read = calotte.read(tmp_path / "nod2d.out")
+        assert len(mesh) - 4 <= len(read) < len(mesh)
+        assert np.abs(np.abs(read.fields["depth"]) - 1000 - read.lat).max() < 0.51
+        assert run("check", tmp_path / "nod2d.out").endswith("passed\n")
+
+
+@pytest.mark.parametrize("name, text, options", [
+    ("nod2d.out", "FESOM's depths need layers; give depth_levels", {"fields": {"depth": 5.0}}),
+    ("nod2d.out", "depth_levels needs depths", {"depth_levels": [0, 10, 100]}),
+    ("hgrid.gr3", "depth_levels applies to FESOM", {"fields": {"depth": 5.0}, "depth_levels": [0, 10, 100]}),
+    ("nod2d.out", "depth_levels have the shape (1, 2)", {"fields": {"depth": 5.0}, "depth_levels": [[0, 10]]}),
+    ("nod2d.out", "the levels of depth are fewer than 3", {"fields": {"depth": 5.0}, "depth_levels": [0, 10]}),
+    ("nod2d.out", "depth_levels must be numbers", {"fields": {"depth": 5.0}, "depth_levels": "0,10,100"}),
+])
+def test_depths_that_are_refused(tmp_path, island_grid, name, text, options):
+    options = {**options, "fields": {key: np.full(len(island_grid), value)
+                                     for key, value in options.get("fields", {}).items()}}
+    with pytest.raises(calotte.Error) as caught:
+        calotte.write(tmp_path / name, island_grid, **options)
+    assert text in str(caught.value) and "\n" not in str(caught.value) and not list(tmp_path.iterdir())
+
+
+def test_cells_that_a_coast_hides_are_told(tmp_path, land, island_grid):
+    with pytest.warns(UserWarning, match="the coast leaves [0-9]+ cells? behind a bend of the coast, .* of the file; "
+                                         "make the region by generalised_sea") as record:
+        calotte.write(tmp_path / "hidden.nc", island_grid)
+    assert record[0].filename == __file__ and (tmp_path / "hidden.nc").exists()
+    made = calotte.generalised_sea(land, WIDTH)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        calotte.write(tmp_path / "sea.nc", calotte.cvt(cell_width=WIDTH, surface=made).mesh, cell_width=WIDTH,
+                      model="mpas-ocean")
+    assert run("check", tmp_path / "sea.nc", "--for", "mpas-ocean").endswith("passed\n")

@@ -1335,8 +1335,8 @@ def read_points(path: Path) -> Array:
 def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None = None,
           sphere_radius: float | None = None, density: DensityLike | None = None,
           cell_width: WidthLike = None, surface: SurfaceLike | None = None,
-          fields: Mapping[str, ArrayLike] | None = None, history: str = "",
-          order: str | None = None) -> None:
+          fields: Mapping[str, ArrayLike] | None = None, depth_levels: ArrayLike = (),
+          history: str = "", order: str | None = None) -> None:
     """Writes a mesh in the format of the name (.nc: MPAS, .vtp, .geojson ...), or as `format`.
 
     mesh: of read(), with its cells and fields, or of another function.
@@ -1354,29 +1354,58 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
         those after it levels. An xarray.DataArray gives the names, with its unit and its long_name.
         Raises Error for a format that does not hold them, and for the name of a variable that the
         format has of its own, such as latCell. SCHISM, ADCIRC and SMS take depth, metres down; these
-        and Gmsh take open, which is above 0 at the sites of the open boundary.
+        and Gmsh take open, which is above 0 at the sites of the open boundary. FESOM takes depth with
+        depth_levels.
+    depth_levels: the bounds of FESOM's layers, metres, 0 first, at least 3; they are written with
+        the field depth, of fields or of the mesh's file, to aux3d.out beside nod2d.out. Default: none,
+        no such file.
     order: of the cells: "curve", along a space-filling curve; or "input", that of the mesh, which
         arrays have beside it. Default: curve in NetCDF files, input in others and for meshes of
         refine() and coarsen().
     """
-    values = [_fields.state_of(mesh, name, value) for name, value in (fields or {}).items()]
+    content, levels, fields = content_of(mesh), _depth_levels(depth_levels), dict(fields or {})
+    if levels.size > 0 and content is not None and "depth" in content.fields:
+        fields = {"depth": content.fields["depth"], **fields}
+    values = [_fields.state_of(mesh, name, value) for name, value in fields.items()]
     output = _calotte.Output(str(path), format, sphere_radius,
                              _density_for(mesh, density, cell_width),
                              density is not None or cell_width is not None, values, history,
                              vars(mesh).get("_order") if order is None else order, model,
-                             _units.radius_of(mesh))
-    content = content_of(mesh)
+                             _units.radius_of(mesh), levels)
     mesh = within(mesh, surface)
-    if content is not None:
-        names = _calotte.write_content(content, mesh, output)
-        dropped = [name for name in names if name in content.fields]
-        if dropped:
-            _arguments.warn(f"{path}: the format does not hold {', '.join(dropped)}")
-    elif isinstance(mesh, Polygons):
+    if content is None and isinstance(mesh, Polygons):
         raise Error("polygons without the file that they are of cannot be written; give what "
                     "read() returns")
-    else:
-        _calotte.write(mesh, output)
+    written = _calotte.write(mesh, output) if content is None else _calotte.write_content(content, mesh, output)
+    dropped = [name for name in written["dropped"] if name in content.fields and name not in fields]
+    if dropped:
+        _arguments.warn(f"{path}: the format does not hold {', '.join(dropped)}")
+    _warn_of_ears(path, *written["ears"])
+    _warn_of_coast(written["hidden"], written["small"])
+
+
+def _depth_levels(levels):
+    given = np.empty(0) if np.size(levels) == 0 else _arguments.numbers(levels, "depth_levels")
+    if given.ndim != 1:
+        raise Error(f"depth_levels have the shape {given.shape}; give the bounds of layers, 0 first, such as [0, 10, 100]")
+    return given
+
+
+def _warn_of_ears(path, triangles, sites):
+    if triangles or sites:
+        _arguments.warn(f"{path}: without {_display.counted(triangles, 'triangle')} of fewer than two neighbours, and "
+                        f"without the {_display.counted(sites, 'site')} that no triangle has then: FESOM refuses them")
+
+
+def _warn_of_coast(hidden, small):
+    """hidden, small: number of cells, and the first."""
+    words = (hidden, "behind a bend of the coast, with parts of negative area"), (
+        small, "with less than a third of the area of those beside")
+    faults = [f"{_display.counted(number, 'cell')} {what}, the first of which is {first} of the file"
+              for (number, first), what in words if number]
+    if faults:
+        _arguments.warn(f"the coast leaves {' and '.join(faults)}; make the region by generalised_sea(), give more "
+                        "cells, or leave boundary=\"generators\" out, which puts centres on the coast")
 
 
 def partition(mesh: Grid, parts: int, *, weights: ArrayLike | None = None) -> NDArray[np.int32]:

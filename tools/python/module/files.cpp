@@ -16,6 +16,7 @@
 #include <calotte/read.h>
 #include <calotte/voronoi.h>
 #include <calotte/write.h>
+#include <calotte/write_grid.h>
 
 #include <algorithm>
 #include <array>
@@ -41,6 +42,7 @@ struct Output {
   Numbering numbering = Numbering::by_format;
   std::optional<std::string> model; ///< that reads the file
   std::optional<double> planet;     ///< its radius in km; default: the model's
+  DoubleVector depth_levels;        ///< see WriteOptions; empty for none
 };
 
 /// Sets what a model expects of its files. \param format of the file. \param radius stays, if it is
@@ -72,6 +74,35 @@ const ModelNeeds& set_model(const std::string& word, Format format, std::optiona
   return *model;
 }
 
+/// Sets the layers of FESOM, whose depths are no field of its format.
+/// \throws Error invalid_argument for layers in another format, and for one without the other.
+void set_layers(const Output& output, WriteOptions& options) {
+  const bool is_fesom = format_of(output.path, output.format) == Format::fesom,
+             has_levels = output.depth_levels.size() > 0;
+  if (has_levels && !is_fesom)
+    throw Error(ErrorCode::invalid_argument,
+                output.path + ": depth_levels applies to FESOM's nod2d.out; leave it out");
+  if (!is_fesom)
+    return;
+  const auto depth = std::ranges::find_if(options.fields, [](const MeshField& field) {
+    return field.name == "depth" && field.count() == 1;
+  });
+  const bool has_depth = depth != options.fields.end();
+  if (has_levels && !has_depth)
+    throw Error(ErrorCode::invalid_argument,
+                output.path +
+                    ": depth_levels needs depths; give the field depth, with a number for "
+                    "each cell");
+  if (has_depth && !has_levels)
+    throw Error(ErrorCode::invalid_argument,
+                output.path + ": FESOM's depths need layers; give depth_levels, too");
+  if (!has_levels)
+    return;
+  options.depth_levels = output.depth_levels;
+  options.site_depth = depth->values;
+  options.fields.erase(depth);
+}
+
 WriteOptions options_of(const Output& output) {
   WriteOptions options;
   options.format = output.format;
@@ -89,37 +120,89 @@ WriteOptions options_of(const Output& output) {
   options.density = output.density;
   options.history = output.history;
   options.fields = output.fields;
+  set_layers(output, options);
   return options;
 }
 
 bool is_mpas(Format format) { return format == Format::mpas || format == Format::mpas_minimal; }
 
-void write_mesh(const Mesh& mesh, const Output& output) {
-  WriteOptions options = options_of(output);
-  call([&] {
-    const Format format = format_of(output.path, output.format);
-    if (!output.known && mesh.surface.is_sphere() && mesh.closed() && is_mpas(format))
-      options.site_density = spacing_density(voronoi(mesh));
-    write(output.path, mesh, options);
-  });
+/// What a written file lacks of a grid, or has otherwise.
+struct Written {
+  std::vector<std::string> dropped; ///< names of fields of a file that the format does not hold
+  EarReport ears;                   ///< of FESOM
+  CoastChanges coast;               ///< of cells of a region of the sphere
+};
+
+py::dict values_of(const Written& written) {
+  py::dict values;
+  values["dropped"] = written.dropped;
+  values["ears"] = py::make_tuple(written.ears.triangles, written.ears.sites);
+  values["hidden"] = py::make_tuple(written.coast.hidden_cells, written.coast.hidden_cell);
+  values["small"] = py::make_tuple(written.coast.small_cells, written.coast.small_cell);
+  return values;
 }
 
-/// Writes what was read. \returns the names of the fields that the format does not hold.
-std::vector<std::string> write_content(const MeshFile& content, const py::object& grid,
-                                       const Output& output) {
-  const MeshFile file = whole(content, grid);
+/// Makes an open mesh one that FESOM reads; depths follow.
+EarReport remove_ears(MeshFile& file, WriteOptions& options) {
+  const bool has_depth = options.site_depth.size() > 0;
+  if (has_depth)
+    file.fields.push_back({.name = "depth", .values = std::move(options.site_depth)});
+  WithoutEars rest = without_ears(std::move(file));
+  file = std::move(rest.file);
+  if (has_depth) {
+    options.site_depth = std::move(file.fields.back().values);
+    file.fields.pop_back();
+  }
+  return rest.removed;
+}
+
+Written write_file(MeshFile file, const Output& output, WriteOptions options) {
+  const Format format = format_of(output.path, output.format);
+  const bool lacks_density =
+      file.density.size() == 0 || file.density.minCoeff() == file.density.maxCoeff();
+  if (!output.known && lacks_density && is_mpas(format))
+    options.site_density = spacing_density(file);
+  Written written;
+  if (const Mesh* mesh = file.sphere(); format == Format::fesom && mesh && !mesh->closed())
+    written.ears = remove_ears(file, options);
+  written.dropped = write(output.path, file, options).dropped;
+  return written;
+}
+
+Written write_mesh_of(const Mesh& mesh, const Output& output) {
+  WriteOptions options = options_of(output);
+  const Format format = format_of(output.path, output.format);
+  const bool is_part = mesh.surface.is_sphere() && !mesh.closed();
+  if (is_part && format == Format::fesom) {
+    MeshFile file;
+    file.mesh = mesh;
+    return write_file(std::move(file), output, options);
+  }
+  if (is_part && mesh.surface.is_bounded()) {
+    Schedule whole; // of no run
+    whole.recipe.surface = mesh.surface;
+    whole.density = options.density;
+    return {{}, {}, write_grid(output.path, mesh, whole.recipe, whole, options).coast};
+  }
+  if (!output.known && mesh.surface.is_sphere() && mesh.closed() && is_mpas(format))
+    options.site_density = spacing_density(voronoi(mesh));
+  write(output.path, mesh, options);
+  return {};
+}
+
+py::dict write_mesh(const Mesh& mesh, const Output& output) {
+  return values_of(call([&] { return write_mesh_of(mesh, output); }));
+}
+
+/// Writes what was read.
+py::dict write_content(const MeshFile& content, const py::object& grid, const Output& output) {
+  MeshFile file = whole(content, grid);
   WriteOptions options = options_of(output);
   if (!output.radius && !output.model)
     options.sphere_radius = file.radius_in_metres();
   if (!output.model)
     options.vertex_order = file.vertex_order;
-  return call([&] {
-    const bool lacks_density =
-        file.density.size() == 0 || file.density.minCoeff() == file.density.maxCoeff();
-    if (!output.known && lacks_density && is_mpas(format_of(output.path, output.format)))
-      options.site_density = spacing_density(file);
-    return write(output.path, file, options).dropped;
-  });
+  return values_of(call([&] { return write_file(std::move(file), output, std::move(options)); }));
 }
 
 /// \param content of the file that the grid is of, or None. \param weights none for equal cells.
@@ -284,12 +367,14 @@ Format format_named(const std::string& name) {
 Output output_of(std::string path, const std::string& format, std::optional<double> radius,
                  Density density, bool known, const std::vector<FieldState>& fields,
                  std::string history, const std::optional<std::string>& order,
-                 std::optional<std::string> model, std::optional<double> planet) {
+                 std::optional<std::string> model, std::optional<double> planet,
+                 const DoubleVector& depth_levels) {
   return {std::move(path),      std::move(history),
           format_named(format), radius,
           std::move(density),   known,
           fields_from(fields),  order ? numbering_named(*order) : Numbering::by_format,
-          std::move(model),     planet};
+          std::move(model),     planet,
+          depth_levels};
 }
 
 } // namespace
