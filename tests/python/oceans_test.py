@@ -72,6 +72,17 @@ def test_the_region_is_that_of_the_command(tmp_path, land):
         assert (tmp_path / "python.geojson").read_text() == (tmp_path / "command.geojson").read_text()
 
 
+def test_the_sea_of_a_part_of_the_sphere(tmp_path, land):
+    part = "circle=%g,%g,900km" % OCEAN
+    made = calotte.generalised_sea(land, WIDTH, region=part)
+    assert made.sea.area < 1.1 * calotte.circle(OCEAN, "900km").area
+    run("coast", land, "--cell-width", f"{WIDTH}km", "--region", part, "-o", tmp_path / "part.geojson")
+    made.sea.write(tmp_path / "made.geojson")
+    assert (tmp_path / "made.geojson").read_text() == (tmp_path / "part.geojson").read_text()
+    with pytest.raises(calotte.Error, match="of the sphere"):
+        calotte.generalised_sea(land, WIDTH, region=calotte.rectangle((0, 0), (1, 1)))
+
+
 def test_a_written_region_is_a_surface(tmp_path, land):
     made = calotte.generalised_sea(land, WIDTH)
     made.sea.write(tmp_path / "sea.geojson")

@@ -1550,7 +1550,8 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     return report
 
 
-def generalised_sea(coast: Path | Sequence[Path], cell_width: WidthLike, *, least_island: float = 1.0,
+def generalised_sea(coast: Path | Sequence[Path], cell_width: WidthLike, *,
+                    region: SurfaceLike | None = None, least_island: float = 1.0,
                     passages: Path | Sequence[Path | ArrayLike] | None = None, seeds: ArrayLike = (),
                     earth_radius: float = EARTH_RADIUS_KM) -> GeneralisedSea:
     """The region of the sea at the widths of a grid, for a grid that ends at the coast, as `calotte
@@ -1562,6 +1563,8 @@ def generalised_sea(coast: Path | Sequence[Path], cell_width: WidthLike, *, leas
 
     coast: GeoJSON of land, or a binned file of GSHHG; one or several.
     cell_width, earth_radius: as for cvt(); rules must give a width everywhere.
+    region: part of the sphere to which the sea belongs, as for refine(); its sides in the sea are open
+        boundaries. Default: the whole sphere.
     least_island: islands and lakes of fewer cells do not count; from 0.25 on.
     passages: lines along which the sea is a cell wide at least, also over land, such as straits, and
         from their ends on to where the sea is as wide: GeoJSON, one file or several; or arrays as of
@@ -1575,7 +1578,8 @@ def generalised_sea(coast: Path | Sequence[Path], cell_width: WidthLike, *, leas
     if widths.of_plane:
         raise Error("cell_width is of a plane, and coasts are of the sphere; give widths in km")
     try:
-        made = _calotte.generalised_sea(_files(coast, "coast"), widths.on_sphere(earth_radius), least_island,
+        made = _calotte.generalised_sea(_files(coast, "coast"), widths.on_sphere(earth_radius),
+                                        _arguments.surface(region, earth_radius=earth_radius), least_island,
                                         _passages(passages), _seeds(seeds))
     except Error as error:
         if str(error).startswith("line "):  # such as "line 0, point 3 is no direction"

@@ -30,10 +30,12 @@ py::list rows_of(const std::vector<ClosedSea>& seas) {
 
 /// \param coasts files of land. \param passages n x 3 each. \param seeds n x 3.
 py::dict generalise(const std::vector<std::string>& coasts, const Widths& widths,
-                    double least_island, const std::vector<Doubles>& passages,
-                    const Doubles& seeds) {
-  const GeneraliseOptions options{
-      .least_island = least_island, .passages = lines_of(passages), .seeds = columns(seeds)};
+                    const Surface& within, double least_island,
+                    const std::vector<Doubles>& passages, const Doubles& seeds) {
+  const GeneraliseOptions options{.least_island = least_island,
+                                  .passages = lines_of(passages),
+                                  .within = within,
+                                  .seeds = columns(seeds)};
   GeneralisedSea made = call([&] { return generalised_sea(read_coasts(coasts), widths, options); });
   py::dict values;
   values["sea"] = std::move(made.sea);
