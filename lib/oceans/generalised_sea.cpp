@@ -244,6 +244,16 @@ void set_displacements(const ShoreMesh& shore, const Widths& widths,
   result.usual_displacement = displaced[(95 * displaced.size() - 1) / 100];
 }
 
+/// Distances of all sites from passages, which end at the border of the seas.
+std::vector<double> from_lines(const ShoreMesh& shore, const std::vector<Points3>& lines) {
+  std::vector<double> distances = near_distances_at(LineDistance(lines, {}), shore.at);
+  if (shore.seas.border)
+    for (std::int64_t site = 0; site < shore.size(); ++site)
+      if (!shore.seas.within.contains(shore.at.points.col(site)))
+        distances[static_cast<std::size_t>(site)] = infinity;
+  return distances;
+}
+
 /// Whether no corner of a line is in a part of the sphere.
 bool is_beyond(const Surface& within, const Points3& line) {
   for (const auto& corner : line.colwise())
@@ -270,7 +280,7 @@ GeneralisedSea generalised_sea(const Coast& coast, const Widths& widths,
   ShoreMesh shore(large.coast, widths, options.passages, options.within);
   const std::vector<Points3> lines = continued_passages(shore, options.passages);
   if (!lines.empty())
-    shore.at.from_passage = near_distances_at(LineDistance(lines, {}), shore.at);
+    shore.at.from_passage = from_lines(shore, lines);
   const Parts open =
       find_parts(shore.neighbours, [&](std::int32_t site) { return shore.is_open(site); });
   const std::vector<bool> kept = seeded_parts(shore, open, options.seeds);
@@ -278,9 +288,9 @@ GeneralisedSea generalised_sea(const Coast& coast, const Widths& widths,
   const Passages passages = connected_passages(shore, lines, in_sea);
 
   const std::vector<double> inside = from_core(shore, in_sea);
-  const std::vector<double> from_passage =
-      passages.lines.empty() ? std::vector<double>(inside.size(), infinity)
-                             : near_distances_at(LineDistance(passages.lines, {}), shore.at);
+  const std::vector<double> from_passage = passages.lines.empty()
+                                               ? std::vector<double>(inside.size(), infinity)
+                                               : from_lines(shore, passages.lines);
   std::vector<double> values = sea_values(shore, inside, from_passage);
   remove_capes(shore, values);
   remove_pieces(shore, in_sea, options.least_island, values);

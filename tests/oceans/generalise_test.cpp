@@ -196,6 +196,12 @@ TEST_CASE("the sea within a part of the sphere ends at its boundary") {
   CHECK(sea.displacement < 0.7);
   options.passages = {directions({{-2, 0}, {2, 0}}), directions({{0, 0}, {0, 1}})};
   CHECK(is_sea(at_width(islands, options), 0, 0) == false);
+  options.passages = {directions({{-15, 0}, {0, 0}, {15, 0}})}; // through two islands, and beyond
+  const GeneralisedSea passed = at_width(islands, options);
+  CHECK(is_sea(passed, 0, 0));
+  CHECK(is_sea(passed, 9, 0));
+  for (const double beyond : {-10.5, 10.5, 13.0})
+    CHECK(!is_sea(passed, beyond, 0));
 
   const auto refused = [&](const GeneraliseOptions& bad) {
     return message_of([&] { at_width(islands, bad); });
