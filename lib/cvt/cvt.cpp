@@ -248,10 +248,10 @@ Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& c
   measure_moves(state, recipe, run.density);
   state.memory = {};
   Cvt result;
-  result.mesh =
-      run.schedule.on_boundary > 0
-          ? mesh_to_boundary(in_order(state), recipe.surface, {end, run.schedule.ring_ends})
-          : inner_mesh(mesh_of_run(state, recipe.surface, std::move(ending.mesh)));
+  result.mesh = run.schedule.on_boundary > 0
+                    ? mesh_to_boundary(in_order(state), recipe.surface,
+                                       ring_successors(state.fixed, run.schedule.ring_ends))
+                    : inner_mesh(mesh_of_run(state, recipe.surface, std::move(ending.mesh)));
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   const bool polishes = has(state, CvtAction::Kind::polish);

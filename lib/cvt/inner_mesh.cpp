@@ -10,6 +10,7 @@
 #include "mesh/faces.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -92,13 +93,12 @@ Mesh without_hull(Points3&& points, const Triangles& triangles, const Surface& s
 
 namespace {
 
-/// Flags the triangles on the surface. \param edges of the boundary, from the first site to the
-/// second with the surface to their left, which triangles to keep do not cross.
-std::vector<std::uint8_t> left_of(const std::vector<Ends>& edges, const Connectivity& mesh) {
-  std::vector<Ends> ways = edges;
-  std::sort(ways.begin(), ways.end());
+/// Flags the triangles on the surface. \param next the next site along the boundary, with the
+/// surface to the left, of each of the first sites; -1 for others. Triangles do not cross the edges
+/// from site to site.
+std::vector<std::uint8_t> left_of(std::span<const std::int32_t> next, const Connectivity& mesh) {
   const auto has = [&](std::int32_t from, std::int32_t to) {
-    return std::binary_search(ways.begin(), ways.end(), Ends{from, to});
+    return from < std::ssize(next) && next[static_cast<std::size_t>(from)] == to;
   };
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()), 0);
   std::vector<std::int32_t> row;
@@ -107,7 +107,7 @@ std::vector<std::uint8_t> left_of(const std::vector<Ends>& edges, const Connecti
       row.push_back(t);
   };
   const auto side = [&](std::int32_t t, int v) {
-    return Ends{mesh.triangles(next_vertex(v), t), mesh.triangles(previous_vertex(v), t)};
+    return std::pair{mesh.triangles(next_vertex(v), t), mesh.triangles(previous_vertex(v), t)};
   };
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v)
@@ -125,23 +125,17 @@ std::vector<std::uint8_t> left_of(const std::vector<Ends>& edges, const Connecti
 
 template <Space S>
 Mesh mesh_to_boundary(const S&, Points3&& points, const Surface& surface,
-                      const BoundaryGenerators& boundary) {
-  std::vector<Ends> ways, edges;
-  std::int64_t begin = boundary.first;
-  for (const std::int64_t end_of_ring : boundary.ring_ends) {
-    const std::int64_t end = boundary.first + end_of_ring;
-    for (std::int64_t i = begin; i < end; ++i)
-      ways.emplace_back(i, i + 1 < end ? i + 1 : begin);
-    begin = end;
-  }
-  for (const auto& [from, to] : ways)
-    edges.push_back(std::minmax({from, to}));
+                      std::span<const std::int32_t> next) {
+  std::vector<Ends> edges;
+  for (std::int32_t from = 0; from < std::ssize(next); ++from)
+    if (const std::int32_t to = next[static_cast<std::size_t>(from)]; to >= 0)
+      edges.push_back(std::minmax({from, to}));
   std::sort(edges.begin(), edges.end());
   Cells<S> cells(surface, Boundary::generators);
   cells.move(points);
   Connectivity mesh = cells.triangulate();
   const bool whole = constrain(mesh, cells.positions(), edges) == 0;
-  std::vector<std::uint8_t> keep = left_of(ways, mesh);
+  std::vector<std::uint8_t> keep = left_of(next, mesh);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     std::uint8_t& here = keep[static_cast<std::size_t>(t)];
     const auto corners = mesh.triangles.col(t);
@@ -156,9 +150,9 @@ Mesh mesh_to_boundary(const S&, Points3&& points, const Surface& surface,
 } // namespace
 
 Mesh mesh_to_boundary(Points3&& points, const Surface& surface,
-                      const BoundaryGenerators& boundary) {
+                      std::span<const std::int32_t> next) {
   return in_space_of(surface, [&](const Space auto& space) {
-    return mesh_to_boundary(space, std::move(points), surface, boundary);
+    return mesh_to_boundary(space, std::move(points), surface, next);
   });
 }
 

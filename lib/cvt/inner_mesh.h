@@ -7,23 +7,21 @@
 #include <calotte/mesh.h>
 #include <calotte/surface.h>
 
+#include <cstdint>
+#include <span>
+
 /// The triangles of a mesh that belong to a bounded surface.
 namespace calotte::cvt_detail {
 
 /// The mesh of the triangles between generators only. In a mesh with a hull, generators come first.
 Mesh without_hull(Points3&& generators, const Triangles& triangles, const Surface& surface);
 
-/// The generators on a boundary, ring by ring with the surface to the left.
-struct BoundaryGenerators {
-  std::int64_t first;                         ///< their first index
-  const std::vector<std::int64_t>& ring_ends; ///< by ring, how many up to its end
-};
-
 /// The mesh of generators that ends at those on the boundary: each outer edge joins two that follow
 /// each other on a ring, and the others are Delaunay as far as these allow. On a surface with land
 /// or sea narrower than a cell not all of these edges may exist. The mesh is then made of the
 /// triangles that has_centre() allows.
-Mesh mesh_to_boundary(Points3&& points, const Surface& surface, const BoundaryGenerators& boundary);
+/// \param next of the first generators the next one along the boundary, see ring_successors().
+Mesh mesh_to_boundary(Points3&& points, const Surface& surface, std::span<const std::int32_t> next);
 
 /// The part of a mesh whose cells the boundary clips, see Boundary::clip. Triangles that touch the
 /// others at a site only in a vertex are removed. A mesh in a plane, and one without a boundary, is

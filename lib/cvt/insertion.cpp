@@ -8,7 +8,7 @@
 #include "base/require.h"
 #include "base/triangle.h"
 #include "density/surface_density.h"
-#include "domain/outline.h"
+#include "domain/near_boundary.h"
 #include "domain/surface.h"
 #include "exact/space.h"
 #include "mesh/edges.h"
@@ -164,17 +164,12 @@ Points3 split_and_collapsed(const Points3& points, const std::vector<Edge>& spli
 template <Space S> bool lies_along(const OutlineOf<S>& outline, const Vec3& a, const Vec3& b) {
   constexpr double share = 0.2;
   const double reach = share * norm(b - a);
+  const Vec3 middle = S{}.midpoint(a, b);
   bool near = false;
-  if constexpr (S::on_sphere) {
-    outline.for_each_edge_near(S::midpoint(a, b), reach,
-                               [&](const SphericalOutline::Edge&) { near = true; });
-  } else {
-    const Vec2 middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-    const Box2 box{{middle.x - reach, middle.y - reach}, {middle.x + reach, middle.y + reach}};
-    outline.for_each_edge_near(box, [&](const Outline::Edge& edge) {
-      near = near || square_from(edge, middle) <= reach * reach;
-    });
-  }
+  for_each_edge_near<S>(outline, middle, reach, [&](const Arc& edge) {
+    const Vec3 apart = nearest_point<S>(edge, middle) - middle;
+    near = near || dot(apart, apart) <= reach * reach;
+  });
   return near;
 }
 

@@ -130,7 +130,7 @@ private:
     return !fixed_.empty() && fixed_[static_cast<std::size_t>(i)] == pinned;
   }
   bool is_on_boundary(std::int32_t i) const {
-    return is_fixed(i) || (!fixed_.empty() && fixed_[static_cast<std::size_t>(i)] == slides);
+    return is_fixed(i) || (!fixed_.empty() && fixed_[static_cast<std::size_t>(i)] == sliding);
   }
   bool may_change(const Angle& angle) const {
     return !is_fixed(angle.a) || !is_fixed(angle.b) || !is_fixed(angle.c);

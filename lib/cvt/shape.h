@@ -66,7 +66,7 @@ constexpr ShapeLimits early_glide_limits() {
 /// How firmly a generator is pinned; 0 for one that moves. Those on the boundary slide along it in
 /// subdomains. A polish releases some of those on lines, and later of those at their ends and
 /// confluences.
-inline constexpr std::uint8_t slides = 1, pinned_on_line = 2, pinned_at_end = 3, pinned = 4;
+inline constexpr std::uint8_t sliding = 1, pinned_on_line = 2, pinned_at_end = 3, pinned = 4;
 
 /// The factors of squared excesses in a penalty.
 struct ShapeFactors {

@@ -22,27 +22,36 @@ std::vector<std::uint8_t> fixed_generators(const State& state) {
       fixed[r] = id < state.on_lines.first   ? pinned
                  : id < state.on_lines.inner ? pinned_at_end
                  : id < state.on_lines.end   ? pinned_on_line
-                                             : slides;
+                                             : sliding;
   return fixed;
+}
+
+std::vector<std::int32_t> ring_successors(std::int64_t fixed,
+                                          const std::vector<std::int64_t>& ring_ends) {
+  std::vector<std::int32_t> next(static_cast<std::size_t>(fixed), -1);
+  const std::int64_t first = ring_ends.empty() ? fixed : fixed - ring_ends.back();
+  std::int64_t begin = first;
+  for (const std::int64_t ring_end : ring_ends) {
+    const std::int64_t end = first + ring_end;
+    for (std::int64_t i = begin; i < end; ++i)
+      next[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i + 1 < end ? i + 1 : begin);
+    begin = end;
+  }
+  return next;
 }
 
 std::vector<std::int32_t> boundary_order(const State& state,
                                          const std::vector<std::int64_t>& ring_ends) {
   if (ring_ends.empty())
     return {};
-  const std::int64_t first = state.fixed - ring_ends.back();
-  std::vector<std::int32_t> site(static_cast<std::size_t>(ring_ends.back()), -1), // by its order
-      along(state.id.size(), -1);
+  const std::vector<std::int32_t> next = ring_successors(state.fixed, ring_ends);
+  std::vector<std::int32_t> rank(next.size()), along(state.id.size(), -1);
   for (std::size_t r = 0; r < state.id.size(); ++r)
-    if (const std::int64_t k = state.id[r] - first; k >= 0 && k < ring_ends.back())
-      site[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(r);
-  std::int64_t begin = 0;
-  for (const std::int64_t end : ring_ends) {
-    for (std::int64_t k = begin; k < end; ++k)
-      along[static_cast<std::size_t>(site[static_cast<std::size_t>(k)])] =
-          site[static_cast<std::size_t>(k + 1 < end ? k + 1 : begin)];
-    begin = end;
-  }
+    if (const std::int32_t id = state.id[r]; id < state.fixed)
+      rank[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(r);
+  for (std::size_t id = 0; id < next.size(); ++id)
+    if (next[id] >= 0)
+      along[static_cast<std::size_t>(rank[id])] = rank[static_cast<std::size_t>(next[id])];
   return along;
 }
 

@@ -80,11 +80,12 @@ template <Space S> void Subdomain<S>::number_sites(const LocalInput& input) {
 template <Space S> void Subdomain<S>::find_sliders(const LocalInput& input) {
   constexpr double share = 0.05; // of the nearest neighbour's distance
   std::vector<std::int32_t> slider(static_cast<std::size_t>(movable()), -1);
-  for (std::int32_t i = 0; input.slides && !input.fixed.empty() && i < movable(); ++i)
-    if (input.fixed[static_cast<std::size_t>(part_.sites[static_cast<std::size_t>(i)])] == slides) {
+  for (std::int32_t i = 0; input.may_slide && !input.fixed.empty() && i < movable(); ++i)
+    if (input.fixed[static_cast<std::size_t>(part_.sites[static_cast<std::size_t>(i)])] ==
+        sliding) {
       slider[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(sliders_.size());
       sliders_.push_back({i, infinite});
-      stays_[static_cast<std::size_t>(i)] = slides;
+      stays_[static_cast<std::size_t>(i)] = sliding;
     }
   if (sliders_.empty())
     return;

@@ -33,13 +33,13 @@ struct LocalInput {
   const Density& density;
   const Integrand& integrand;
   const std::vector<std::uint8_t>& fixed; ///< by generator, how it is pinned, see shape.h; or empty
-  bool slides = true;                     ///< whether generators on the boundary slide
+  bool may_slide = true;                  ///< whether generators on the boundary slide
 
   /// Whether a generator moves, as far as its pin is concerned.
   bool moves(std::int32_t generator) const {
     const std::uint8_t pin =
         fixed.empty() ? std::uint8_t{0} : fixed[static_cast<std::size_t>(generator)];
-    return pin == 0 || (slides && pin == cvt_detail::slides);
+    return pin == 0 || (may_slide && pin == sliding);
   }
 };
 

@@ -1,48 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/along_boundary.h"
 
-#include "domain/outline.h"
-#include "domain/spherical_outline.h"
+#include "domain/near_boundary.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace calotte::domain_detail {
 namespace {
-
-/// Calls body(edge) for the edges of a boundary that may come within a distance of a point.
-template <Space S, class Body>
-void for_each_edge_near(const OutlineOf<S>& outline, const Vec3& x, double reach,
-                        const Body& body) {
-  if constexpr (S::on_sphere) {
-    outline.for_each_edge_near(x, reach, body);
-  } else {
-    outline.for_each_edge_near(
-        {{x.x - reach, x.y - reach}, {x.x + reach, x.y + reach}}, [&](const Outline::Edge& edge) {
-          body(Arc{{edge.from.x, edge.from.y, 0}, {edge.to.x, edge.to.y, 0}});
-        });
-  }
-}
-
-/// The point of an edge nearest to x.
-template <Space S> Vec3 nearest_point(const Arc& edge, const Vec3& x) {
-  if constexpr (S::on_sphere) {
-    Vec3 nearest = edge.from;
-    double least = std::numeric_limits<double>::infinity();
-    for_each_part(edge, [&](const Arc& part) {
-      const Vec3 here = nearest_on(part, x), apart = here - x;
-      if (dot(apart, apart) < least) {
-        least = dot(apart, apart);
-        nearest = here;
-      }
-    });
-    return nearest;
-  } else {
-    const Vec3 way = edge.to - edge.from;
-    return edge.from + std::clamp(dot(x - edge.from, way) / dot(way, way), 0.0, 1.0) * way;
-  }
-}
 
 /// The unit vector along an edge at a point of it.
 template <Space S> Vec3 direction_of(const Arc& edge, const Vec3& at) {

@@ -179,14 +179,19 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
 
 // Slow: a run for each number of threads and of regions.
 TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
-  const Recipe recipe = ending_at_generators(cases().back(), 900);
-  const auto with = [&](std::size_t threads, int regions) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(recipe, {.decomposition = {.regions = regions}}).mesh;
-  };
-  const Mesh one = with(1, 1), many = with(4, 12);
-  CHECK(one.points == many.points);
-  CHECK(one.triangles == many.triangles);
+  for (const std::int64_t cells : {900, 3000}) { // 3000: after a bisection
+    const Recipe recipe = ending_at_generators(cells < 1000 ? cases().back() : cases()[0], cells);
+    const Schedule schedule = plan(recipe);
+    CHECK((std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind) > 0) ==
+          (cells > 1000));
+    const auto with = [&](std::size_t threads, int regions) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      return make_grid(schedule, {.decomposition = {.regions = regions}}).mesh;
+    };
+    const Mesh one = with(1, 1), many = with(4, 12);
+    CHECK(one.points == many.points);
+    CHECK(one.triangles == many.triangles);
+  }
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/errors.h"
 #include "support/files.h"
+#include "support/made.h"
 
 #include <calotte/coastal_cells.h>
 #include <calotte/mesh_file.h>
@@ -22,15 +23,6 @@ namespace {
 Recipe in_a_circle() {
   return {.cells = 150, .surface = circle({1, 2, 2}, 0.3, 24), .stop = {.iterations = 20}};
 }
-
-struct Made {
-  explicit Made(const Recipe& asked) : recipe(asked), schedule(plan(asked)) {
-    mesh = make_grid(schedule).mesh;
-  }
-  Recipe recipe;
-  Schedule schedule;
-  Mesh mesh;
-};
 
 const Made& made() {
   static const Made value(in_a_circle());

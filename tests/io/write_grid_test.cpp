@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/files.h"
 #include "support/full_disk.h"
+#include "support/made.h"
 
 #include <calotte/cut.h>
 #include <calotte/error.h>
@@ -42,15 +43,6 @@ Recipe between_walls() {
   recipe.resolution = density;
   return recipe;
 }
-
-struct Made {
-  explicit Made(const Recipe& asked) : recipe(asked), schedule(plan(asked)) {
-    mesh = make_grid(schedule).mesh;
-  }
-  Recipe recipe;
-  Schedule schedule;
-  Mesh mesh;
-};
 
 } // namespace
 

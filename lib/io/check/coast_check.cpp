@@ -87,7 +87,7 @@ void check_nodes(const Mesh& mesh, bool once, Findings& findings) {
   }
 }
 
-/// What a model wants of lists.
+/// What a model demands of lists.
 struct ListRules {
   bool outer = false;         ///< they follow outer edges, and not others
   bool land_right = false;    ///< of lists of land

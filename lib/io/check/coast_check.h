@@ -15,8 +15,8 @@ namespace calotte::io_detail {
 ///
 /// - lists of nodes (SCHISM, ADCIRC): they follow outer edges, and each outer edge is in one of
 ///   them, but where dikes are listed. The boundary passes each node once, each node has a
-///   triangle, and the stated numbers of listed nodes are theirs. SCHISM wants no closed open list,
-///   ADCIRC land to the right.
+///   triangle, and the stated numbers of listed nodes are theirs. No open list of SCHISM is closed,
+///   and land is to the right of lists of ADCIRC.
 /// - strings and lines (SMS, Gmsh) follow edges.
 /// - flags of coast (FESOM): those other than 0 stand at the nodes of the boundary, if there are
 ///   any. Each triangle has two neighbours, and each node a triangle.

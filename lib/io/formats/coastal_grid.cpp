@@ -18,9 +18,9 @@
 // and for each the number of its nodes, which follow; then the same for boundaries of land, whose
 // number of nodes is followed by a type. Ids count from 1.
 //
-// ADCIRC wants land to the right of a list. It closes a list of an island itself, and one of the
-// mainland where its first node comes again at its end. SCHISM wants two lists in place of a closed
-// one that is not an island, and neither takes a boundary that passes a node twice.
+// In ADCIRC land is to the right of a list. It closes a list of an island itself, and one of the
+// mainland where its first node comes again at its end. SCHISM has two lists in place of a closed
+// one that is not an island. Neither model reads a boundary that passes a node twice.
 
 namespace calotte::io_detail {
 namespace {
