@@ -779,7 +779,7 @@ TEST_CASE("a signal a second after another one ends the process at once") {
   // One iteration of this run, whose density is a maximum of many bumps, takes longer than the
   // waits between the signals.
   std::string bumps;
-  for (int k = 0; k < 1500; ++k)
+  for (int k = 0; k < 3000; ++k)
     bumps += (k == 0 ? "\"" : ", \"") + bump_density(3) + "\"";
   bench.file("bumps.toml", "density = [" + bumps + "]\n");
   const pid_t process = start_iterating(
