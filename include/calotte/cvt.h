@@ -242,10 +242,12 @@ struct Schedule {
   std::vector<CvtAction> actions;                 ///< of the run, in order
   double implied_cells = 0;                       ///< by the widths; 0 without
   std::int64_t on_boundary = 0; ///< the last of the fixed generators, by Boundary::generators
-  std::vector<std::int64_t> ring_ends; ///< by ring of the boundary, how many of these up to its end
-  std::int64_t on_lines = 0;           ///< fixed generators before those, by Recipe::lines
-  std::int64_t line_ends = 0;          ///< the first of those, see LinePoints::ends
-  double from_lines = 0;               ///< see LinePoints::farthest
+  /// By fixed generator the next one along the boundary, with the surface to the left; -1 for
+  /// others. The mesh ends at the edges between these. None without them.
+  std::vector<std::int32_t> next_on_boundary;
+  std::int64_t on_lines = 0;  ///< fixed generators before those, by Recipe::lines
+  std::int64_t line_ends = 0; ///< the first of those, see LinePoints::ends
+  double from_lines = 0;      ///< see LinePoints::farthest
 };
 
 /// The executed part of an action.

@@ -160,7 +160,7 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
       recipe.boundary, std::move(level));
   functional->penalise(penalty_of(state, recipe.stop));
   functional->pin(fixed_generators(state));
-  functional->end_along(boundary_order(state, run.schedule.ring_ends));
+  functional->end_along(boundary_order(state, run.schedule.next_on_boundary));
   Descent descent(state, options, run.density, *functional);
   const bool resumed = state.memory.iterations > 0;
   descent.begin();
@@ -248,10 +248,10 @@ Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& c
   measure_moves(state, recipe, run.density);
   state.memory = {};
   Cvt result;
-  result.mesh = run.schedule.on_boundary > 0
-                    ? mesh_to_boundary(in_order(state), recipe.surface,
-                                       ring_successors(state.fixed, run.schedule.ring_ends))
-                    : inner_mesh(mesh_of_run(state, recipe.surface, std::move(ending.mesh)));
+  const std::vector<std::int32_t>& boundary = run.schedule.next_on_boundary;
+  result.mesh = boundary.empty()
+                    ? inner_mesh(mesh_of_run(state, recipe.surface, std::move(ending.mesh)))
+                    : mesh_to_boundary(in_order(state), recipe.surface, boundary);
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   const bool polishes = has(state, CvtAction::Kind::polish);

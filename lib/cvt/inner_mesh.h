@@ -20,7 +20,7 @@ Mesh without_hull(Points3&& generators, const Triangles& triangles, const Surfac
 /// each other on a ring, and the others are Delaunay as far as these allow. On a surface with land
 /// or sea narrower than a cell not all of these edges may exist. The mesh is then made of the
 /// triangles that has_centre() allows.
-/// \param next of the first generators the next one along the boundary, see ring_successors().
+/// \param next of the first generators the next one along the boundary, see Schedule.
 Mesh mesh_to_boundary(Points3&& points, const Surface& surface, std::span<const std::int32_t> next);
 
 /// The part of a mesh whose cells the boundary clips, see Boundary::clip. Triangles that touch the

@@ -26,25 +26,10 @@ std::vector<std::uint8_t> fixed_generators(const State& state) {
   return fixed;
 }
 
-std::vector<std::int32_t> ring_successors(std::int64_t fixed,
-                                          const std::vector<std::int64_t>& ring_ends) {
-  std::vector<std::int32_t> next(static_cast<std::size_t>(fixed), -1);
-  const std::int64_t first = ring_ends.empty() ? fixed : fixed - ring_ends.back();
-  std::int64_t begin = first;
-  for (const std::int64_t ring_end : ring_ends) {
-    const std::int64_t end = first + ring_end;
-    for (std::int64_t i = begin; i < end; ++i)
-      next[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i + 1 < end ? i + 1 : begin);
-    begin = end;
-  }
-  return next;
-}
-
 std::vector<std::int32_t> boundary_order(const State& state,
-                                         const std::vector<std::int64_t>& ring_ends) {
-  if (ring_ends.empty())
+                                         const std::vector<std::int32_t>& next) {
+  if (next.empty())
     return {};
-  const std::vector<std::int32_t> next = ring_successors(state.fixed, ring_ends);
   std::vector<std::int32_t> rank(next.size()), along(state.id.size(), -1);
   for (std::size_t r = 0; r < state.id.size(); ++r)
     if (const std::int32_t id = state.id[r]; id < state.fixed)

@@ -76,13 +76,9 @@ struct State {
 /// By generator, whether it is pinned, see shape.h; empty if none is.
 std::vector<std::uint8_t> fixed_generators(const State& state);
 
-/// By fixed generator in the order of the result, of those on the boundary the next one on their
-/// ring, with the surface to the left; of others -1. \param ring_ends see Schedule.
-std::vector<std::int32_t> ring_successors(std::int64_t fixed,
-                                          const std::vector<std::int64_t>& ring_ends);
-/// The same by generator of a state; empty if the mesh does not end at generators.
-std::vector<std::int32_t> boundary_order(const State& state,
-                                         const std::vector<std::int64_t>& ring_ends);
+/// By generator of a state the next one along the boundary, or none.
+/// \param next Schedule::next_on_boundary.
+std::vector<std::int32_t> boundary_order(const State& state, const std::vector<std::int32_t>& next);
 
 /// The generators in the order of the result.
 Points3 in_order(const State& state);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/demanded_spacing.h"
 
+#include "density/hexagons.h"
 #include "density/sampling.h"
 #include "density/surface_density.h"
 
 #include <cmath>
+#include <utility>
 
 namespace calotte::density_detail {
 
@@ -28,6 +30,14 @@ DemandedSpacing::DemandedSpacing(const Surface& surface, const Density& density,
                                  std::int64_t samples)
     : density_(surface_density(density, surface)),
       integral_(mean_root(density_, surface, samples) * surface.area() / cells) {}
+
+DemandedSpacing::DemandedSpacing(Density&& density, double integral)
+    : density_(std::move(density)), integral_(integral) {}
+
+DemandedSpacing DemandedSpacing::of_width(const Surface& surface, const Density& density,
+                                          double at_one) {
+  return {surface_density(density, surface), hexagon_area(at_one)};
+}
 
 double DemandedSpacing::at(const Vec3& x) const {
   const Points3 point = Eigen::Vector3d(x.x, x.y, x.z);

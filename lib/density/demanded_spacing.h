@@ -20,10 +20,15 @@ public:
   DemandedSpacing(const Surface& surface, const Density& density, double cells,
                   std::int64_t samples = 4096);
 
+  /// That of cells with a width where the density is 1.
+  static DemandedSpacing of_width(const Surface& surface, const Density& density, double at_one);
+
   /// The spacing at x: radians, in a plane its unit. Infinite where the density is 0.
   double at(const Vec3& x) const;
 
 private:
+  DemandedSpacing(Density&& density, double integral);
+
   Density density_; ///< at points with z = 0 of a plane
   double integral_; ///< of rho^(1/2) over the surface, divided by the number of cells
 };

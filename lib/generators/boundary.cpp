@@ -22,23 +22,36 @@ namespace {
 using namespace generators_detail;
 using base_detail::require;
 
-/// The rings of a boundary as segments with the surface to their left.
-template <Space S> std::vector<std::vector<Segment>> list_segments(const Surface& surface) {
-  std::vector<std::vector<Segment>> all;
-  for (const std::vector<Vec3>& ring : outline_of<S>(surface)->rings()) {
-    std::vector<Segment>& segments = all.emplace_back();
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      segments.push_back({ring[k], ring[(k + 1) % ring.size()]});
-  }
-  return all;
+/// A part of a boundary, with the surface to its left.
+template <Space S>
+Curve<S> curve_of(const Surface& surface, const std::vector<Vec3>& corners, bool closed,
+                  const DemandedSpacing& spacing) {
+  std::vector<Segment> segments;
+  for (std::size_t k = 0; k + (closed ? 0 : 1) < corners.size(); ++k)
+    segments.push_back({corners[k], corners[(k + 1) % corners.size()]});
+  return {spacing, longest_step<S>(surface), std::move(segments), closed};
 }
 
 template <Space S>
 std::vector<Curve<S>> make_curves(const Surface& surface, const DemandedSpacing& spacing) {
   std::vector<Curve<S>> curves;
-  for (std::vector<Segment>& ring : list_segments<S>(surface))
-    curves.emplace_back(spacing, longest_step<S>(surface), std::move(ring), true);
+  for (const std::vector<Vec3>& ring : outline_of<S>(surface)->rings())
+    curves.push_back(curve_of<S>(surface, ring, true, spacing));
   return curves;
+}
+
+/// The generators along a part of a boundary, without the ends of an open one.
+template <Space S>
+std::vector<Vec3> points_along(const Curve<S>& curve, const OutlineOf<S>& outline) {
+  const std::vector<double> stops = curve.stops(true);
+  const std::size_t ends = curve.is_closed() ? 0 : 1;
+  std::vector<Vec3> points;
+  for (std::size_t k = ends; k + ends < stops.size(); ++k) {
+    const auto [point, segment] = curve.position(stops[k]);
+    points.push_back(domain_detail::pushed_inside<S>(
+        outline, point, domain_detail::left_of<S>(curve.segments()[segment])));
+  }
+  return points;
 }
 
 /// The number of cells of a lattice without a boundary that has the spacing of n generators, b of
@@ -67,12 +80,12 @@ BoundaryPoints points_on_boundary(const Surface& surface, std::int64_t cells,
     const Curve<S>& curve = curves[ring];
     require(curve.edges() > 0,
             "the density is zero along ring {} of the boundary; make it positive", ring);
-    for (const double stop : curve.stops()) {
-      const auto [point, segment] = curve.position(stop);
-      positions.push_back(domain_detail::pushed_inside<S>(
-          *outline_of<S>(surface), point, domain_detail::left_of<S>(curve.segments()[segment])));
-    }
-    out.ring_ends.push_back(std::ssize(positions));
+    for (const Vec3& point : points_along(curve, *outline_of<S>(surface)))
+      positions.push_back(point);
+    const auto first = static_cast<std::int32_t>(out.next.size());
+    for (std::int32_t k = first + 1; k < std::ssize(positions); ++k)
+      out.next.push_back(k);
+    out.next.push_back(first);
   }
   out.points.resize(3, std::ssize(positions));
   for (std::size_t i = 0; i < positions.size(); ++i)
@@ -98,6 +111,16 @@ BoundaryPoints generators_detail::limited_boundary_points(const Surface& surface
   require(out.points.cols() < std::max<std::int64_t>(cells, 1),
           "the boundary takes {} of the {} generators; give more cells", out.points.cols(), cells);
   return out;
+}
+
+std::vector<Vec3> generators_detail::points_along_boundary(const Surface& surface,
+                                                           const std::vector<Vec3>& corners,
+                                                           bool closed,
+                                                           const DemandedSpacing& spacing) {
+  const auto along = [&]<class S>(const S&) {
+    return points_along<S>(curve_of<S>(surface, corners, closed, spacing), *outline_of<S>(surface));
+  };
+  return surface.is_sphere() ? along(Sphere{}) : along(Plane());
 }
 
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {

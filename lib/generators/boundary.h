@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vec3.h"
+#include "density/demanded_spacing.h"
 #include "generators/room.h"
 
 #include <calotte/density.h>
@@ -15,7 +17,7 @@ namespace calotte::generators_detail {
 /// The result of boundary_points(), ring by ring.
 struct BoundaryPoints {
   Points3 points;
-  std::vector<std::int64_t> ring_ends; ///< by ring, the number of points up to its end
+  std::vector<std::int32_t> next; ///< by point, the next one on its ring
 };
 
 /// boundary_points() without the limit by the number of generators.
@@ -24,5 +26,11 @@ BoundaryPoints all_boundary_points(const Surface& surface, std::int64_t cells,
 /// The same with it. \throws Error as boundary_points().
 BoundaryPoints limited_boundary_points(const Surface& surface, std::int64_t cells,
                                        const Density& density);
+
+/// Generators along a part of a boundary, as boundary_points() has them: between its ends, which
+/// stay, or along a whole ring.
+/// \param corners two or more of the boundary, with the surface to the left.
+std::vector<Vec3> points_along_boundary(const Surface& surface, const std::vector<Vec3>& corners,
+                                        bool closed, const DemandedSpacing& spacing);
 
 } // namespace calotte::generators_detail

@@ -113,11 +113,11 @@ template <Space S> std::vector<double> Curve<S>::kept_corners() const {
   return kept;
 }
 
-template <Space S> std::vector<double> Curve<S>::stops() const {
+template <Space S> std::vector<double> Curve<S>::stops(bool dense) const {
   constexpr double fewest = 3; // stops of a closed curve
   // Between the ends of longer edges, other generators could lie. On a boundary that must not
   // happen. Along a line it may: shapes beside fixed generators are better if these are not dense.
-  const double wide = closed_ ? 1 : 1.1, slack = closed_ ? 0.25 : 0.5;
+  const double wide = dense ? 1 : 1.1, slack = dense ? 0.25 : 0.5;
   const auto number = [&](double edges) { return std::max(1.0, std::ceil(edges / wide - slack)); };
   std::vector<double> corners = kept_corners();
   if (corners.empty())

@@ -35,11 +35,11 @@ public:
   Position position(double edges) const;
 
   /// The positions of generators in numbers of edges, ascending. Generators are at the kept
-  /// corners, and between two of these at equal distances: from 5/8 to 5/4 edges, on an open curve
-  /// from 2/3 to 5/3. A corner where the curve turns by 20 degrees or more is kept, unless a corner
-  /// of higher priority is nearer than two thirds of an edge; the ends of an open curve have the
-  /// highest priority, then sharper corners. A closed curve has three or more generators.
-  std::vector<double> stops() const;
+  /// corners, and between two of these at equal distances: `dense` ones from 5/8 to 5/4 edges,
+  /// others from 2/3 to 5/3. A corner where the curve turns by 20 degrees or more is kept, unless a
+  /// corner of higher priority is nearer than two thirds of an edge; the ends of an open curve have
+  /// the highest priority, then sharper corners. A closed curve has three or more generators.
+  std::vector<double> stops(bool dense) const;
 
 private:
   /// A position by the number of edges from the start.

@@ -70,7 +70,7 @@ private:
     const bool loop = chain.front() == chain.back() &&
                       network.neighbours[static_cast<std::size_t>(chain.front())] == 2;
     curves_.emplace_back(spacing_, longest, std::move(segments), loop);
-    const std::vector<double> stops = curves_.back().stops();
+    const std::vector<double> stops = curves_.back().stops(loop);
     for (std::size_t k = loop ? 0 : 1; k + (loop ? 0 : 1) < stops.size(); ++k)
       positions_.push_back(curves_.back().position(stops[k]).at);
   }

@@ -52,6 +52,9 @@ constexpr std::array<NamedValue<Method>, 4> methods{{{"auto", Method::automatic}
                                                      {"lbfgs", Method::lbfgs},
                                                      {"lbfgs-laplacian", Method::lbfgs_laplacian}}};
 
+constexpr std::array<NamedValue<Boundary>, 2> boundaries{
+    {{"clip", Boundary::clip}, {"generators", Boundary::generators}}};
+
 /// The fixed generators, then the free ones.
 Points3 generators(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
@@ -66,19 +69,18 @@ Points3 generators(const Schedule& schedule) {
 
 /// The number of CvtReport::off_boundary.
 std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
-  const std::int64_t last = schedule.recipe.fixed.cols(), first = last - schedule.on_boundary;
-  if (first == last)
-    return 0;
+  const std::vector<std::int32_t>& next = schedule.next_on_boundary;
   std::int64_t outer = 0, away = 0;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+  for (Eigen::Index t = 0; !next.empty() && t < mesh.triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v) {
       if (mesh.neighbours(v, t) >= 0)
         continue;
-      const std::int32_t a = mesh.triangles((v + 1) % 3, t), b = mesh.triangles((v + 2) % 3, t);
+      const std::int32_t from = mesh.triangles((v + 1) % 3, t), to = mesh.triangles((v + 2) % 3, t);
       ++outer;
-      away += std::min(a, b) < first || std::max(a, b) >= last;
+      away += from >= std::ssize(next) || next[static_cast<std::size_t>(from)] != to;
     }
-  return std::max(away, std::abs(outer - schedule.on_boundary));
+  const auto on_boundary = std::ranges::count_if(next, [](std::int32_t to) { return to >= 0; });
+  return std::max(away, std::abs(outer - on_boundary));
 }
 
 /// Refuses, before any work, a schedule that plan() has not made.
@@ -120,6 +122,7 @@ Cvt make_grid(const Recipe& recipe, RunOptions options) {
 std::span<const NamedValue<CvtStart::Kind>> start_words() { return starts; }
 std::span<const NamedValue<Norm>> norm_words() { return norms; }
 std::span<const NamedValue<Method>> method_words() { return methods; }
+std::span<const NamedValue<Boundary>> boundary_words() { return boundaries; }
 
 std::string_view word_of(CvtStart::Kind kind) {
   return std::ranges::find(starts, kind, &NamedValue<CvtStart::Kind>::value)->word;

@@ -280,7 +280,7 @@ generators_detail::BoundaryPoints on_boundary(const Schedule& schedule) {
 /// Puts generators on lines and on the boundary after the other fixed ones.
 void take_curves(Schedule& schedule) {
   Recipe& recipe = schedule.recipe;
-  auto [boundary, ring_ends] = on_boundary(schedule);
+  const auto [boundary, next] = on_boundary(schedule);
   if (!recipe.lines.empty()) {
     require(recipe.start.kind != CvtStart::Kind::points,
             "generators on lines follow from a number of cells; give one, and no points of the "
@@ -293,9 +293,13 @@ void take_curves(Schedule& schedule) {
     schedule.line_ends = lines.ends;
     schedule.from_lines = lines.farthest;
   }
+  const auto before = static_cast<std::int32_t>(recipe.fixed.cols());
   recipe.fixed = joined(recipe.fixed, boundary);
   schedule.on_boundary = boundary.cols();
-  schedule.ring_ends = std::move(ring_ends);
+  if (!next.empty())
+    schedule.next_on_boundary.assign(static_cast<std::size_t>(before), -1);
+  for (const std::int32_t after : next)
+    schedule.next_on_boundary.push_back(before + after);
 }
 
 void require_free(const Recipe& recipe) {

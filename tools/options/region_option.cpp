@@ -2,10 +2,12 @@
 #include "options/region_option.h"
 
 #include "io/command.h"
+#include "options/choice.h"
 #include "options/numbers.h"
 #include "text/text.h"
 
 #include <calotte/error.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 
 #include <CLI/App.hpp>
@@ -16,6 +18,8 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
@@ -41,6 +45,13 @@ void add_inside(CLI::App& command, std::string& inside) {
       ->needs(command.get_option("--region"));
 }
 
+void add_boundary(CLI::App& command, Boundary& boundary, const char* help) {
+  std::vector<std::pair<std::string, Boundary>> choices;
+  for (const auto& [word, value] : boundary_words())
+    choices.emplace_back(word, value);
+  add_choice<Boundary>(command, "--boundary", boundary, choices, help);
+}
+
 void add_region(CLI::App& command, RegionWords& words) {
   command
       .add_option("--region", words.region,
@@ -52,13 +63,10 @@ void add_region(CLI::App& command, RegionWords& words) {
                    "Write a grid for a regional model: the cells of the region and 7 rings of "
                    "boundary cells around it, with their masks, as an MPAS file. Requires --region "
                    "and --cell-width");
-  command
-      .add_option("--boundary", words.boundary,
-                  "Boundary of the region: clip (it clips cells; the mesh ends within about a cell "
-                  "of it), or generators (some generators stay on it, at the distances that the "
-                  "density demands, and the mesh ends at them)")
-      ->check(CLI::IsMember({"clip", "generators"}))
-      ->capture_default_str();
+  add_boundary(command, words.boundary,
+               "Boundary of the region: clip (it clips cells; the mesh ends within about a cell of "
+               "it), or generators (some generators stay on it, at the distances that the density "
+               "demands, and the mesh ends at them)");
 }
 
 void require_region_words(const RegionWords& words) {

@@ -3,6 +3,7 @@
 
 #include "help/cli_forward.h"
 
+#include <calotte/cvt.h>
 #include <calotte/surface.h>
 #include <calotte/widths.h>
 
@@ -15,11 +16,16 @@ struct RegionWords {
   std::string region;            ///< a shape or a file, or none
   std::string inside;            ///< LON,LAT of the region, or none
   bool limited_area = false;     ///< adds the rings of boundary cells
-  std::string boundary = "clip"; ///< clip or generators
+  Boundary boundary = Boundary::clip;
 };
 
 /// Whether the mesh ends at generators on the region's boundary.
-inline bool ends_at_boundary(const RegionWords& words) { return words.boundary == "generators"; }
+inline bool ends_at_boundary(const RegionWords& words) {
+  return words.boundary == Boundary::generators;
+}
+
+/// Adds --boundary, how a mesh ends.
+void add_boundary(CLI::App& command, Boundary& boundary, const char* help);
 
 /// Adds --inside, which needs --region.
 void add_inside(CLI::App& command, std::string& inside);

@@ -163,7 +163,7 @@ GridInput read_grid(const DensityWords& density, const RegionWords& part,
   if (auto* const rules = std::get_if<WidthRules>(&resolution))
     input.rules = std::move(*rules);
   recipe.limited_area = part.limited_area;
-  recipe.boundary = ends_at_boundary(part) ? Boundary::generators : Boundary::clip;
+  recipe.boundary = part.boundary;
   return input;
 }
 

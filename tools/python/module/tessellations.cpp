@@ -3,6 +3,7 @@
 #include "calls.h"
 #include "module.h"
 #include "runs.h"
+#include "words.h"
 
 #include <calotte/error.h>
 #include <calotte/grid.h>
@@ -28,27 +29,8 @@ namespace {
 
 // ---- The recipe
 
-constexpr std::array<NamedValue<Boundary>, 2> boundaries{
-    {{"clip", Boundary::clip}, {"generators", Boundary::generators}}};
 constexpr std::array<NamedValue<Duplicates>, 2> duplicates{
     {{"merge", Duplicates::merge}, {"refuse", Duplicates::refuse}}};
-
-/// \throws Error invalid_argument, with the words that there are.
-template <class Value>
-Value named(std::span<const NamedValue<Value>> words, const std::string& word,
-            const std::string& what) {
-  std::string names;
-  for (const NamedValue<Value>& known : words) {
-    if (known.word == word)
-      return known.value;
-    names += (names.empty() ? "" : ", ") + std::string(known.word);
-  }
-  throw Error(ErrorCode::invalid_argument, "no " + what + " " + word + "; give one of: " + names);
-}
-
-template <class Value> std::string word_in(std::span<const NamedValue<Value>> words, Value value) {
-  return std::string(std::ranges::find(words, value, &NamedValue<Value>::value)->word);
-}
 
 /// A field of a recipe, or of a part of it, as an attribute.
 /// \param field returns a reference to it.
@@ -58,16 +40,6 @@ void add_field(py::class_<Recipe>& type, const char* name, const Field& field) {
   type.def_property(
       name, [field](const Recipe& recipe) -> Value { return field(recipe); },
       [field](Recipe& recipe, Value value) { field(recipe) = std::move(value); });
-}
-
-/// The same for a field that has words.
-/// \param what it is, in messages.
-template <class Value, class Field>
-void add_word(py::class_<Recipe>& type, const char* name, const std::string& what,
-              std::span<const NamedValue<Value>> words, const Field& field) {
-  type.def_property(
-      name, [=](const Recipe& recipe) { return word_in(words, field(recipe)); },
-      [=](Recipe& recipe, const std::string& word) { field(recipe) = named(words, word, what); });
 }
 
 /// n x 3 or n x 2 points, in the plane with z = 0, as an attribute that is set.
@@ -142,7 +114,7 @@ void add_recipe(py::module_& module) {
       type, "method", "method", method_words(),
       [](auto& recipe) -> auto& { return recipe.method; });
   add_word(
-      type, "boundary", "boundary", std::span<const NamedValue<Boundary>>(boundaries),
+      type, "boundary", "boundary", boundary_words(),
       [](auto& recipe) -> auto& { return recipe.boundary; });
   add_word(
       type, "duplicates", "rule for duplicates",
