@@ -41,6 +41,7 @@ struct Verb {
   const char* widths;
   const char* factor;
   const char* left;                          ///< of cells that do not meet the demand
+  const char* reach;                         ///< how they would at the boundary
   base_detail::Pattern<std::int64_t> missed; ///< the same of so many not at the boundary
   ChangedMesh (*change)(const Mesh&, const WidthDemand&, const RefineOptions&);
 };
@@ -50,6 +51,7 @@ constexpr Verb refining{"refine",
                         "Widths, in km, that cells become as narrow as where they are wider",
                         "How many times as narrow cells of the region become, more than 1 to 100",
                         "wider",
+                        "; if the mesh ends at generators, give --boundary generators",
                         "{} cells are wider than demanded by more than 0.3; refine the result "
                         "again, or give a larger --gradient",
                         refine};
@@ -59,6 +61,7 @@ constexpr Verb coarsening{
     "Widths, in km, that cells become as wide as where they are narrower",
     "How many times as wide cells of the region become, more than 1 to 100",
     "narrower",
+    "",
     "the demand is met in none of its {} cells: coarser ones grow from those around; give a larger "
     "region or --gradient",
     coarsen};
@@ -71,6 +74,7 @@ struct RefineRequest {
   std::shared_ptr<std::string> config;
   std::shared_ptr<DomainWords> domain;
   WidthWords widths;
+  Boundary boundary = Boundary::clip;
   std::string region, inside, output, cell_map, report;
   std::optional<double> factor, gradient;
   double tolerance = RefineOptions{}.tolerance;
@@ -129,6 +133,7 @@ RefineOptions options_of(const RefineRequest& request, Progress& progress) {
   RefineOptions options;
   options.tolerance = request.tolerance;
   options.gradient = request.gradient.value_or(options.gradient);
+  options.boundary = request.boundary;
   options.decomposition = options_of(*request.delaunay).decomposition;
   options.progress = [&progress](const calotte::Progress& now) {
     if (now.run != nullptr)
@@ -221,8 +226,8 @@ Verdict verdict(const RefineRequest& request, const ChangedMesh& changed) {
   Verdict found;
   if (changed.held > 0)
     found.faults.push_back(
-        message("{} cells stay {} than demanded, because they are at the boundary or next to it",
-                changed.held, request.verb->left));
+        message("{} cells stay {} than demanded, because they are at the boundary or next to it{}",
+                changed.held, request.verb->left, request.verb->reach));
   if (changed.missed > 0)
     found.faults.push_back(message(request.verb->missed, changed.missed));
   if (!totals.converged)
@@ -311,6 +316,12 @@ void add(CLI::App& app, const Verb& verb) {
       ->add_option("--tolerance", request->tolerance,
                    "Share of its width within which a cell meets the demand, 0.01 to 0.5")
       ->capture_default_str();
+  if (&verb == &refining)
+    add_boundary(*command, request->boundary,
+                 "Cells at the boundary of a mesh of a part of the surface: clip (they stay), or "
+                 "generators (for a mesh that ends at generators, as --boundary generators of "
+                 "calotte cvt makes it: finer cells reach the boundary, along which new generators "
+                 "replace the old ones)");
   command
       ->add_option("--nearest", request->methods.nearest,
                    "Fields at cells, separated by commas, whose values at new cells are those of "

@@ -47,6 +47,11 @@ struct RefineOptions {
   /// those that stay beside coarser ones; 0.001 to 1. Models take up to 0.12 of a cell's width from
   /// one cell to the next.
   double gradient = 0.05;
+  /// How an open mesh ends. By default sites at its boundary, those whose cells the rings of a
+  /// plane clip, and those next to either stay. With Boundary::generators, for a mesh that ends at
+  /// its sites, such as one of a run with it, finer cells reach the boundary: generators along the
+  /// outer edges, as those of boundary_points(), replace its sites. Of refine() alone.
+  Boundary boundary = Boundary::clip;
   Decomposition decomposition = {}; ///< affects time and memory, not the result
   ProgressCallback progress = {};   ///< stage: descend
 };
@@ -93,10 +98,10 @@ struct ChangedMesh {
 /// The result is the Delaunay triangulation of its sites, and has the same bits for any number of
 /// threads. Patches do not depend on each other: two demands whose patches do not touch, one after
 /// the other, give the same sites in either order.
-/// \param mesh a Delaunay triangulation; sites at the boundary of an open mesh stay, those whose
-///        cells the rings of a plane clip, and those next to either.
+/// \param mesh a Delaunay triangulation, at the boundary as far as its edges there allow.
 /// \throws Error invalid_argument for a demand with widths and region or neither, a value out of
-///         range, a surface of another kind, and a mesh that is not Delaunay where it changes; with
+///         range, a surface of another kind, Boundary::generators for a mesh that does not end at
+///         generators, and a mesh that is not Delaunay where it changes; with
 ///         the index of a site, where the boundary of an open mesh meets itself and a patch would
 ///         reach both sides; for a patch that leads around a periodic plane, or across a ring;
 ///         as make_grid(), and in a plane with rings as voronoi().

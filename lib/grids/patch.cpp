@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <queue>
 #include <string>
 #include <unordered_map>
@@ -210,6 +211,14 @@ template <Space S> Marks sites_at_open_edges(const Mesh& mesh, const S& space) {
 
 } // namespace
 
+std::vector<std::int32_t> PatchRegion::on_boundary() const {
+  std::vector<std::int32_t> moved;
+  for (const std::vector<std::int32_t>& ring : rings)
+    std::ranges::copy_if(ring, std::back_inserter(moved),
+                         [&](std::int32_t site) { return site >= fixed; });
+  return moved;
+}
+
 Marks sites_at_boundary(const Mesh& mesh) {
   Marks marks = in_space_of(
       mesh.surface, [&](const Space auto& space) { return sites_at_open_edges(mesh, space); });
@@ -244,11 +253,22 @@ DoubleVector own_widths(const Mesh& mesh, const Marks& at_boundary) {
   return widths;
 }
 
-WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Marks& at_boundary,
+void complete_widths(const Mesh& mesh, const IdLists& neighbours, DoubleVector& widths) {
+  in_space_of(mesh.surface, [&](const Space auto& space) {
+    for (std::int32_t i = 0; i < widths.size(); ++i) {
+      if (widths[i] > 0)
+        continue;
+      for (const std::int32_t other : neighbours[i])
+        widths[i] += norm(chord(space, mesh, i, other)) / static_cast<double>(neighbours.count(i));
+    }
+  });
+}
+
+WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, Marks stays,
                            const DoubleVector& own, const DoubleVector& demanded, Way way,
                            double tolerance, double gradient) {
   const bool finer = way == Way::finer;
-  WantedWidths wanted{own, grown(neighbours, at_boundary, 1), 0};
+  WantedWidths wanted{own, std::move(stays), 0};
   Marks changes(static_cast<std::size_t>(own.size()), 0);
   const auto has = [](const Marks& marks, std::int32_t i) {
     return marks[static_cast<std::size_t>(i)] != 0;

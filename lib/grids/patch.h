@@ -28,6 +28,10 @@ Marks sites_at_boundary(const Mesh& mesh);
 /// or 0 without measured neighbours.
 DoubleVector own_widths(const Mesh& mesh, const Marks& at_boundary);
 
+/// Sets the widths that are 0, as in a strait of two rows of sites, to the mean distance of the
+/// neighbours.
+void complete_widths(const Mesh& mesh, const IdLists& neighbours, DoubleVector& widths);
+
 /// A point in the form that measures require: on the sphere a unit vector, as points of files may
 /// have other norms.
 template <Space S> Vec3 measured_point(const S&, const Vec3& x) {
@@ -43,23 +47,24 @@ enum class Way { finer, coarser };
 /// The widths that cells shall have.
 struct WantedWidths {
   DoubleVector width; ///< by site; the mesh's own width where nothing changes
-  Marks stays;        ///< at the boundary, or next to a site there
+  Marks stays;        ///< as given
   /// The number of sites where the demand is not met because of sites that stay.
   std::int64_t held = 0;
 };
 
 /// Adopts a demand where it is not met, and limits the gradient of widths around: finer cells
-/// spread outwards, and coarser cells begin beside those that keep their widths. Sites at the
-/// boundary and their neighbours stay, so that no triangle at a boundary changes; the gradient of
-/// widths is limited from there, too. \param neighbours of the mesh's sites. \param own from
-/// own_widths(). \param demanded by site, in the same unit. \param tolerance share of a width
-/// within which it meets the demand. \param gradient greatest change of the width by distance.
-WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Marks& at_boundary,
+/// spread outwards, and coarser cells begin beside those that keep their widths. The gradient of
+/// widths is limited from sites that stay, too. \param neighbours of the mesh's sites. \param stays
+/// the sites whose cells keep their widths. \param own from own_widths(). \param demanded by site,
+/// in the same unit. \param tolerance share of a width within which it meets the demand. \param
+/// gradient greatest change of the width by distance.
+WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, Marks stays,
                            const DoubleVector& own, const DoubleVector& demanded, Way way,
                            double tolerance, double gradient);
 
 /// A connected part of a mesh, bounded by simple rings of edges. Along its boundary, two rows of
-/// sites stay, so that the triangles there stay, too.
+/// sites stay, so that the triangles there stay, too. Only at the mesh's own boundary may sites of
+/// the rings move.
 struct PatchRegion {
   mesh_detail::Submesh
       part; ///< triangles ascend; sites: first those that stay, then others, each ascending
@@ -71,6 +76,9 @@ struct PatchRegion {
   /// The sites that stay, by their ids in the mesh.
   std::span<const std::int32_t> fixed_sites() const { return std::span(part.sites).first(size()); }
   std::span<const std::int32_t> free_sites() const { return std::span(part.sites).subspan(size()); }
+
+  /// The sites of the rings that move, by their numbers in the part.
+  std::vector<std::int32_t> on_boundary() const;
 
 private:
   std::size_t size() const { return static_cast<std::size_t>(fixed); }

@@ -4,8 +4,10 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "cvt/stages.h"
+#include "density/demanded_spacing.h"
 #include "domain/arcs.h"
 #include "exact/space.h"
+#include "generators/boundary.h"
 #include "grids/schedule.h"
 #include "mesh/edges.h"
 
@@ -15,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,7 @@ namespace calotte::grids_detail {
 namespace {
 
 using base_detail::require;
+using density_detail::DemandedSpacing;
 using mesh_detail::Submesh;
 
 /// The sites of a patch: on the sphere unit columns, in a periodic plane unwrapped.
@@ -136,27 +138,97 @@ Surface make_surface(const Mesh& mesh, const PatchRegion& patch, const Mesh& loc
   return rings.empty() ? mesh.surface : local.surface.within(std::move(rings));
 }
 
-/// The number of sites of the new patch.
-std::int64_t choose_count(const PatchRegion& patch, const DoubleVector& own,
-                          const DoubleVector& wanted) {
-  double sum = 0;
-  for (const std::int32_t site : patch.free_sites()) {
-    const double ratio = own[site] / wanted[site];
-    sum += ratio * ratio;
-  }
-  return patch.fixed + std::max<std::int64_t>(std::llround(sum), 1);
+/// The sites of a patch that bound it: those that stay, and generators instead of the others.
+struct Bounds {
+  std::vector<Vec3> points;       ///< the generators, numbered after the sites that stay
+  std::vector<std::int32_t> next; ///< along the rings, see Schedule::next_on_boundary
+
+  auto on_boundary() const { return static_cast<std::int32_t>(points.size()); }
+};
+
+/// The sites on a ring from one that stays on, if there is one.
+std::vector<std::int32_t> from_fixed(const PatchRegion& patch, std::vector<std::int32_t> ring) {
+  const auto first = std::ranges::find_if(ring, [&](auto site) { return site < patch.fixed; });
+  std::ranges::rotate(ring, first == ring.end() ? ring.begin() : first);
+  return ring;
 }
 
-/// The sites, with midpoints of edges that are too long, added repeatedly; none between fixed
-/// sites. Midpoints keep the directions of the rows of cells, so that few dislocations are needed
-/// beside the patch.
-/// \param local the patch. \param surface of the patch, whose rings may be concave: edges across
-/// them have none. \param least width at which the density is 1.
-Points3 with_midpoints(const Mesh& local, const Surface& surface, std::int64_t fixed,
+Bounds make_bounds(const PatchRegion& patch, const Mesh& local, const Surface& surface,
+                   const DemandedSpacing& spacing) {
+  Bounds out;
+  out.next.assign(static_cast<std::size_t>(patch.rings.empty() ? 0 : patch.fixed), -1);
+  for (const std::vector<std::int32_t>& given : patch.rings) {
+    const std::vector<std::int32_t> ring = from_fixed(patch, given);
+    const bool closed = ring.front() >= patch.fixed; // none stays
+    std::vector<std::int32_t> order;
+    for (std::size_t k = 0; k < ring.size();) {
+      if (!closed)
+        order.push_back(ring[k++]);
+      std::vector<Vec3> corners;
+      for (; k < ring.size() && ring[k] >= patch.fixed; ++k)
+        corners.push_back(column(local.points, ring[k]));
+      if (corners.empty())
+        continue;
+      if (!closed) {
+        corners.insert(corners.begin(), column(local.points, order.back()));
+        corners.push_back(column(local.points, ring[k % ring.size()]));
+      }
+      for (const Vec3& point :
+           generators_detail::points_along_boundary(surface, corners, closed, spacing)) {
+        order.push_back(patch.fixed + out.on_boundary());
+        out.points.push_back(point);
+        out.next.push_back(-1);
+      }
+    }
+    for (std::size_t k = 0; k < order.size(); ++k)
+      out.next[static_cast<std::size_t>(order[k])] = order[(k + 1) % order.size()];
+  }
+  return out;
+}
+
+/// The number of sites of the new patch. One on the boundary has half a cell.
+std::int64_t choose_count(const PatchRegion& patch, const DoubleVector& own,
+                          const DoubleVector& wanted, std::int32_t on_boundary) {
+  double sum = -0.5 * on_boundary;
+  const auto add = [&](std::int32_t site, double cells) {
+    const double ratio = own[site] / wanted[site];
+    sum += cells * ratio * ratio;
+  };
+  for (const std::int32_t site : patch.free_sites())
+    add(site, 1);
+  for (const std::int32_t own_number : patch.on_boundary())
+    add(patch.part.sites[static_cast<std::size_t>(own_number)], -0.5);
+  return patch.fixed + on_boundary + std::max<std::int64_t>(std::llround(sum), 1);
+}
+
+/// The sites that stay, the generators on the boundary, and the free sites inside.
+Points3 first_points(const PatchRegion& patch, const Mesh& local, const Bounds& bounds) {
+  std::vector<std::uint8_t> is_inside(patch.part.sites.size(), 1);
+  for (const std::int32_t site : patch.on_boundary())
+    is_inside[static_cast<std::size_t>(site)] = 0;
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index k = patch.fixed; k < local.points.cols(); ++k)
+    if (is_inside[static_cast<std::size_t>(k)] != 0)
+      inside.push_back(k);
+  Points3 along(3, bounds.on_boundary());
+  for (Eigen::Index k = 0; k < along.cols(); ++k)
+    set_column(along, k, bounds.points[static_cast<std::size_t>(k)]);
+  Points3 all(3, patch.fixed + along.cols() + std::ssize(inside));
+  all << local.points.leftCols(patch.fixed), along, local.points(Eigen::all, inside);
+  return all;
+}
+
+/// Points, with midpoints of edges that are too long, added repeatedly; none between fixed ones.
+/// Midpoints keep the directions of the rows of cells, so that few dislocations are needed beside
+/// the patch.
+/// \param surface of the patch, whose rings may be concave: edges across them have none.
+/// \param least width at which the density is 1.
+Points3 with_midpoints(Points3&& points, const Surface& surface, std::int64_t fixed,
                        const Density& density, double least) {
   constexpr double longest = 1.5; // widths
   constexpr int most_passes = 8;
-  Mesh mesh = local;
+  const Surface whole = surface.is_sphere() ? Surface::sphere() : Surface::plane();
+  Mesh mesh = delaunay(std::move(points), whole);
   for (int pass = 0; pass < most_passes; ++pass) {
     std::vector<std::array<Vec3, 2>> edges;
     mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
@@ -181,19 +253,22 @@ Points3 with_midpoints(const Mesh& local, const Surface& surface, std::int64_t f
       break;
     Points3 all(3, mesh.points.cols() + std::ssize(chosen));
     all << mesh.points, middles(Eigen::all, chosen);
-    mesh = delaunay(std::move(all), mesh.surface);
+    mesh = delaunay(std::move(all), whole);
   }
   return std::move(mesh.points);
 }
 
 /// The schedule of a patch's run from given points.
+/// \param points the fixed ones first: those that stay, then those on the boundary.
 Schedule make_schedule(const Surface& surface, const Density& density, std::int64_t cells,
-                       std::int64_t fixed, const Points3& points) {
+                       const Bounds& bounds, std::int64_t fixed, const Points3& points) {
   constexpr double tolerance = 1e-4;
   constexpr int rounds = 3;
   Schedule schedule;
   Recipe& recipe = schedule.recipe;
   schedule.density = density;
+  schedule.on_boundary = bounds.on_boundary();
+  schedule.next_on_boundary = bounds.next;
   recipe.cells = cells;
   recipe.surface = surface;
   recipe.boundary = surface.is_bounded() ? Boundary::generators : Boundary::clip;
@@ -204,43 +279,9 @@ Schedule make_schedule(const Surface& surface, const Density& density, std::int6
   recipe.stop.tolerance = tolerance;
   recipe.stop.well_centred = true;
   schedule.first = recipe.start.kind;
-  schedule.actions = actions_of(recipe, {.kind = recipe.start.kind, .cells = points.cols()});
+  schedule.actions = actions_of(recipe, {.kind = recipe.start.kind, .cells = points.cols()}, 0,
+                                schedule.on_boundary);
   return schedule;
-}
-
-/// The Delaunay triangles of a patch's sites within its rings: those reached from the left of the
-/// rings without crossing them. The fixed sites come first. Where rings are straight up to
-/// rounding, a triangle's centre would not decide.
-Mesh mesh_within(Points3&& points, const Submesh& part, const Surface& surface) {
-  const auto key = [](std::int32_t from, std::int32_t to) {
-    return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
-  };
-  std::unordered_set<std::uint64_t> rim;
-  for (const Submesh::RimEdge& edge : part.rim)
-    rim.insert(key(edge.from, edge.to));
-  Mesh mesh = delaunay(std::move(points), surface);
-  std::vector<std::uint8_t> reached(static_cast<std::size_t>(mesh.triangles.cols()), 0);
-  std::vector<Eigen::Index> inside;
-  const auto reach = [&](std::int32_t t) {
-    if (t >= 0 && std::exchange(reached[static_cast<std::size_t>(t)], std::uint8_t{1}) == 0)
-      inside.push_back(t);
-  };
-  const auto edge = [&](Eigen::Index t, int i, bool forwards) {
-    const std::int32_t from = mesh.triangles(next_vertex(i), t),
-                       to = mesh.triangles(previous_vertex(i), t);
-    return forwards ? key(from, to) : key(to, from);
-  };
-  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (rim.contains(edge(t, i, true)))
-        reach(t);
-  for (std::size_t k = 0; k < inside.size(); ++k)
-    for (int i = 0; i < 3; ++i)
-      if (!rim.contains(edge(inside[k], i, true)) && !rim.contains(edge(inside[k], i, false)))
-        reach(mesh.neighbours(i, inside[k]));
-  mesh.triangles = Triangles(mesh.triangles(Eigen::all, inside));
-  mesh.neighbours.resize(3, 0);
-  return mesh;
 }
 
 } // namespace
@@ -251,23 +292,26 @@ Replacement make_replacement(const Mesh& mesh, const PatchRegion& patch, const D
   const Mesh local = local_mesh(mesh, patch.part);
   const DoubleVector width = wanted(patch.part.sites);
   const Density density = make_density(local, width, fine, options.tolerance);
-  const std::int64_t fixed = patch.fixed;
+  const double least = width.minCoeff();
   const Surface surface = make_surface(mesh, patch, local);
-  const Schedule schedule =
-      make_schedule(surface, density, choose_count(patch, own, wanted), fixed,
-                    with_midpoints(local, surface, fixed, density, width.minCoeff()));
+  const Bounds bounds =
+      make_bounds(patch, local, surface, DemandedSpacing::of_width(surface, density, least));
+  const std::int32_t on_boundary = bounds.on_boundary();
+  const std::int64_t fixed = patch.fixed + on_boundary;
+  const Schedule schedule = make_schedule(
+      surface, density, choose_count(patch, own, wanted, on_boundary), bounds, fixed,
+      with_midpoints(first_points(patch, local, bounds), surface, fixed, density, least));
   RunOptions run;
   run.decomposition = options.decomposition;
   run.progress = options.progress;
   Cvt grid = make_grid(schedule, std::move(run));
-  const std::int64_t added = grid.mesh.points.cols() - fixed;
+  const std::int64_t added = grid.mesh.points.cols() - patch.fixed;
   const Points3 positions = grid.mesh.points.rightCols(added);
   Replacement out;
-  out.width_ratio = width_ratio(local, own(patch.part.sites), density, width.minCoeff(), positions);
+  out.on_boundary = on_boundary;
+  out.width_ratio = width_ratio(local, own(patch.part.sites), density, least, positions);
   out.change = {std::ssize(patch.free_sites()), added, std::move(grid.report)};
-  out.mesh = patch.rings.empty()
-                 ? std::move(grid.mesh)
-                 : mesh_within(std::move(grid.mesh.points), patch.part, local.surface);
+  out.mesh = std::move(grid.mesh);
   return out;
 }
 

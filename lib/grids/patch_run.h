@@ -16,7 +16,8 @@ struct Replacement {
   /// The triangles within the rings, without neighbours; the fixed sites of the patch come first.
   /// In a periodic plane the points are unwrapped.
   Mesh mesh;
-  DoubleVector width_ratio; ///< by site that is not fixed, see ChangedMesh
+  std::int32_t on_boundary = 0; ///< the first of the sites after these, on the mesh's boundary
+  DoubleVector width_ratio;     ///< by site that is not fixed, see ChangedMesh
   ChangedPatch change;
 };
 
@@ -27,7 +28,7 @@ struct FineWidths {
 };
 
 /// Runs a patch on the surface that its rings bound, where its fixed sites stay and the mesh ends
-/// at the rings.
+/// at the rings. Other sites on these are replaced by generators along them, which slide.
 /// \param own, wanted see wanted_widths(). \param fine limits widths between sites; null for none.
 /// \throws Error as make_grid(); invalid_argument for a patch that leads around a periodic plane.
 Replacement make_replacement(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,

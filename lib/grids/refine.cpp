@@ -6,6 +6,8 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "cvt/shape.h"
+#include "domain/near_boundary.h"
+#include "domain/surface.h"
 #include "exact/space.h"
 #include "grids/demand.h"
 #include "grids/patch_run.h"
@@ -13,6 +15,7 @@
 #include "mesh/canonical_order.h"
 #include "mesh/connectivity.h"
 #include "mesh/renumber.h"
+#include "mesh/rows.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -22,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -123,13 +127,14 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
 }
 
 /// Refuses new sites outside the surface: where a patch touches itself across a narrow gap in the
-/// surface, they may lie in the gap.
+/// surface, they may lie in the gap. Those on the mesh's boundary may, where the surface is
+/// concave.
 void require_inside(const Mesh& mesh, const std::vector<PatchRegion>& patches,
-                    const NewSites& sites) {
+                    const std::vector<Replacement>& replacements, const NewSites& sites) {
   if (!mesh.surface.is_bounded())
     return;
   for (std::size_t p = 0; p < patches.size(); ++p)
-    for (const std::int32_t site : sites.added[p])
+    for (const std::int32_t site : std::span(sites.added[p]).subspan(replacements[p].on_boundary))
       if (!mesh.surface.contains(sites.points.col(site)))
         throw Error(ErrorCode::invalid_argument,
                     base_detail::message("the patch around site {} would reach across the boundary "
@@ -222,7 +227,7 @@ template <Space S>
 ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchRegion>& patches,
                       std::vector<Replacement>&& replacements) {
   NewSites sites = new_sites(mesh, space, patches, replacements);
-  require_inside(mesh, patches, sites);
+  require_inside(mesh, patches, replacements, sites);
   ChangedMesh out;
   out.mesh.surface = mesh.surface;
   out.mesh.triangles = new_triangles(mesh, patches, replacements, sites);
@@ -232,7 +237,9 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
   out.mesh.site_of_input = base_detail::themselves(out.mesh.points.cols());
 
   std::vector<std::uint8_t> of_patch(static_cast<std::size_t>(out.mesh.points.cols()), 0);
+  std::int64_t more_on_boundary = 0;
   for (std::size_t p = 0; p < replacements.size(); ++p) {
+    more_on_boundary += replacements[p].on_boundary - std::ssize(patches[p].on_boundary());
     for (const std::int32_t site : patches[p].fixed_sites())
       of_patch[static_cast<std::size_t>(sites.new_of_old[site])] = 1;
     for (const std::int32_t site : sites.added[p])
@@ -242,7 +249,7 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
   const auto open_edges = [](const Triangles& neighbours) {
     return (neighbours.array() < 0).count();
   };
-  if (open_edges(out.mesh.neighbours) != open_edges(mesh.neighbours) ||
+  if (open_edges(out.mesh.neighbours) != open_edges(mesh.neighbours) + more_on_boundary ||
       !is_delaunay(out.mesh, space, of_patch))
     triangulate_anew(mesh, space, patches, out.mesh);
   out.width_ratio = DoubleVector::Ones(out.mesh.points.cols());
@@ -255,21 +262,27 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
   return out;
 }
 
-/// A mesh with its neighbours, boundary and widths.
+/// A mesh with its neighbours, widths, and the sites that stay: those at the boundary and their
+/// neighbours, so that no triangle there changes, unless it ends at generators.
 struct Given {
-  explicit Given(const Mesh& of)
-      : mesh(of), around(neighbours(mesh)), at_boundary(sites_at_boundary(mesh)),
-        own(own_widths(mesh, at_boundary)) {}
+  Given(const Mesh& of, Boundary boundary) : mesh(of), around(neighbours(mesh)) {
+    const Marks at_boundary = sites_at_boundary(mesh);
+    own = own_widths(mesh, at_boundary);
+    if (boundary == Boundary::generators)
+      complete_widths(mesh, around, own);
+    stays = boundary == Boundary::generators ? Marks(at_boundary.size(), 0)
+                                             : mesh_detail::grown(around, at_boundary, 1);
+  }
 
   const Mesh& mesh;
   IdLists around; ///< neighbours of the sites
-  Marks at_boundary;
   DoubleVector own;
+  Marks stays;
 };
 
 WantedWidths want_widths(const Given& given, const DoubleVector& demanded, Way way,
                          const RefineOptions& options) {
-  return wanted_widths(given.mesh, given.around, given.at_boundary, given.own, demanded, way,
+  return wanted_widths(given.mesh, given.around, given.stays, given.own, demanded, way,
                        options.tolerance, options.gradient);
 }
 
@@ -325,6 +338,9 @@ std::int64_t bad_shapes(const ChangedMesh& changed) {
       points.push_back(measured_point(space, column(mesh.points, i)));
       stays.push_back(changed.old_of_new[i] >= 0 ? pinned_on_line : std::uint8_t{0});
     }
+    for (const std::int32_t site : boundary_loops(mesh).items)
+      if (std::uint8_t& pin = stays[static_cast<std::size_t>(site)]; pin == 0)
+        pin = sliding;
     const DoubleVector no_spacing = DoubleVector::Zero(mesh.points.cols());
     const ShapeInput<S> input{{cells, faces, points}, no_spacing, shape_limits, stays};
     Points3 unused = Points3::Zero(3, mesh.points.cols());
@@ -397,12 +413,42 @@ Marks new_sites(const ChangedMesh& changed) {
   return marks;
 }
 
+/// Refuses a mesh that does not end at generators, see RefineOptions::boundary.
+void require_end_at_generators(const Mesh& mesh, const DoubleVector& own) {
+  constexpr double near = 0.05; // widths
+  require(!mesh.closed(), "the mesh has no boundary; leave the boundary out");
+  if (!mesh.surface.is_bounded())
+    return;
+  in_space_of(mesh.surface, [&]<Space S>(const S& space) {
+    const auto& outline = *domain_detail::outline_of<S>(mesh.surface);
+    for (const std::int32_t site : boundary_loops(mesh).items) {
+      const Vec3 x = measured_point(space, column(mesh.points, site));
+      const double reach = near * own[site];
+      bool found = false;
+      domain_detail::for_each_edge_near<S>(outline, x, reach, [&](const domain_detail::Arc& edge) {
+        found = found || norm(domain_detail::nearest_point<S>(edge, x) - x) <= reach;
+      });
+      if (!found)
+        throw Error(ErrorCode::invalid_argument,
+                    base_detail::message("site {} at the end of the mesh is not on the boundary of "
+                                         "its surface; give a mesh that ends at generators, or "
+                                         "leave the boundary out",
+                                         site),
+                    site);
+    }
+  });
+}
+
 /// Changes a mesh. Finer cells are made in steps where the demand lies between sites: the new sites
 /// of a step sample the demand of the next.
 ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
                     const RefineOptions& options) {
   require_demand(mesh, wanted, way, options);
-  const Given given(mesh);
+  const Given given(mesh, options.boundary);
+  if (options.boundary == Boundary::generators) {
+    require(way == Way::finer, "cells at the boundary do not become coarser; leave it out");
+    require_end_at_generators(mesh, given.own);
+  }
   const Demand demand(wanted, way, mesh, given.own);
   if (way == Way::coarser) {
     const DoubleVector demanded = demand.at(mesh.points);
@@ -425,7 +471,7 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
       changed_once(given, demand, want_widths(given, demanded, way, options), options);
   constexpr int most_steps = 4;
   for (int step = 1; !out.patches.empty(); ++step) {
-    const Given now(out.mesh);
+    const Given now(out.mesh, options.boundary);
     const WantedWidths widths = want_widths(now, demanded_on(now, new_sites(out)), way, options);
     out.missed = missed(now.own, widths);
     if (out.missed == 0 || step == most_steps)

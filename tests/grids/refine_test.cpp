@@ -2,6 +2,7 @@
 #include "support/files.h"
 #include "support/text.h"
 
+#include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -11,6 +12,7 @@
 #include <calotte/quality.h>
 #include <calotte/refine.h>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
@@ -132,6 +134,73 @@ Mesh lattice(bool periodic) {
 
 Surface square(double x, double y, double side) {
   return rectangle({x - side / 2, y - side / 2}, {x + side / 2, y + side / 2});
+}
+
+/// A sea with a wavy coast and an island, in which cells are 0.04 wide.
+const Mesh& wavy_sea() {
+  static const Mesh mesh = [] {
+    const auto ring = [](int corners, double sign, const auto& radius) {
+      Points2 lonlat(2, corners);
+      for (int k = 0; k < corners; ++k) {
+        const double at = sign * 2 * std::numbers::pi * k / corners;
+        lonlat.col(k) << 40 + radius(at) * std::cos(at), 5 + radius(at) * std::sin(at);
+      }
+      return DoubleMatrix(from_lonlat(lonlat));
+    };
+    Recipe recipe;
+    recipe.surface =
+        Surface::sphere().within({ring(300, 1, [](double at) { return 20 + 3 * std::cos(4 * at); }),
+                                  ring(40, -1, [](double) { return 5; })});
+    recipe.boundary = Boundary::generators;
+    recipe.cells = 300;
+    return make_grid(recipe).mesh;
+  }();
+  return mesh;
+}
+
+/// The largest distance of sites of a mesh's boundary from the boundary of another mesh.
+double from_boundary(const Mesh& of, const Mesh& other) {
+  double most = 0;
+  const IdLists loops = boundary_loops(other);
+  for (const std::int32_t site : boundary_loops(of).items) {
+    const Eigen::Vector3d x = of.points.col(site);
+    double least = 10;
+    for (std::int64_t loop = 0; loop < loops.size(); ++loop)
+      for (std::size_t k = 0; k < loops[loop].size(); ++k) {
+        const Eigen::Vector3d a = other.points.col(loops[loop][k]),
+                              ab = other.points.col(loops[loop][(k + 1) % loops[loop].size()]) - a;
+        const double share = std::clamp(ab.dot(x - a) / ab.squaredNorm(), 0.0, 1.0);
+        const Eigen::Vector3d beside = a + share * ab - x;
+        least = std::min(least, share > 0 && share < 1 && other.surface.is_sphere()
+                                    ? std::abs(a.cross(ab).normalized().dot(x))
+                                    : beside.norm());
+      }
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+/// The least and the largest angle of flat triangles, in degrees.
+std::array<double, 2> angles_of(const Mesh& mesh) {
+  std::array<double, 2> range{180, 0};
+  for (const auto& t : mesh.triangles.colwise())
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d at = mesh.points.col(t(i)), u = mesh.points.col(t((i + 1) % 3)) - at,
+                            v = mesh.points.col(t((i + 2) % 3)) - at;
+      const double angle = std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi;
+      range = {std::min(range[0], angle), std::max(range[1], angle)};
+    }
+  return range;
+}
+
+double area_of(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles.colwise()) {
+    const Eigen::Vector3d a = mesh.points.col(t(0)), b = mesh.points.col(t(1)),
+                          c = mesh.points.col(t(2));
+    sum += (b - a).cross(c - a).norm() / 2;
+  }
+  return sum;
 }
 
 } // namespace
@@ -533,6 +602,18 @@ TEST_CASE("demands that cannot be") {
   options = {};
   options.gradient = 2;
   refused(in_circle({0, 0, 1}, 0.1, 2), "gradient is 2", options);
+  options = {.boundary = Boundary::generators};
+  refused(in_circle({0, 0, 1}, 0.1, 2), "the mesh has no boundary", options);
+  const Mesh clipped = make_grid({.cells = 200, .surface = circle({0, 0, 1}, 0.3)}).mesh;
+  const std::string text = test::message_of([&] {
+    refine(clipped, in_circle({0, 0, 1}, 0.1, 2), options);
+  });
+  CHECK_MESSAGE(text.find("at the end of the mesh is not on the boundary") != std::string::npos,
+                text);
+  CHECK(test::has(test::message_of([&] {
+                    coarsen(wavy_sea(), in_circle(wavy_sea().points.col(0), 0.2, 2), options);
+                  }),
+                  "do not become coarser"));
 }
 
 TEST_CASE("a patch at a corner of a hull with thin triangles [slow]") {
@@ -546,4 +627,75 @@ TEST_CASE("a patch at a corner of a hull with thin triangles [slow]") {
   expect_changed(base, finer);
   expect_delaunay(finer.mesh);
   CHECK(finer.held > 10);
+}
+
+TEST_CASE("finer cells reach the shore of a mesh that ends at generators [slow]") {
+  Mesh base = wavy_sea();
+  base.surface = Surface::sphere(); // as a file has it
+  const RefineOptions shore{.gradient = 0.1, .boundary = Boundary::generators};
+  const Eigen::Vector3d cape = from_lonlat(Eigen::Vector2d(63, 5)),
+                        island = from_lonlat(Eigen::Vector2d(40, 5));
+  for (const Eigen::Vector3d& centre : {cape, island}) {
+    const WidthDemand demand = in_circle(centre, 0.13, 2.5);
+    CHECK(refine(base, demand, {.gradient = 0.1}).held > 0);
+    const ChangedMesh finer = refine(base, demand, shore);
+    expect_changed(base, finer);
+    CHECK(finer.held == 0);
+    CHECK(finer.missed == 0);
+    CHECK(check_surface(finer.mesh).failure == "");
+    CHECK(count_edges(finer.mesh).not_delaunay == 0);
+    CHECK(boundary_loops(finer.mesh).size() == 2);
+    CHECK(from_boundary(finer.mesh, base) < 1e-12);
+    CHECK(std::abs(area_of(finer.mesh) / area_of(base) - 1) < 0.01);
+    CHECK(mean_edge(finer.mesh, centre, 0.13) / mean_edge(base, centre, 0.13) < 0.5);
+    CHECK(angles_of(finer.mesh)[0] > 35);
+    CHECK(angles_of(finer.mesh)[1] < 91);
+    CHECK(finer.width_ratio.maxCoeff() < 1.2);
+    CHECK(finer.width_ratio.minCoeff() > 0.3);
+  }
+  const WidthDemand demand = in_circle(cape, 0.13, 2.5);
+  tbb::task_arena arena(1);
+  const ChangedMesh alone = arena.execute([&] { return refine(base, demand, shore); });
+  CHECK(alone.mesh.points == refine(base, demand, shore).mesh.points);
+  // In memory a mesh knows its coast, beside whose arcs new generators may lie.
+  CHECK(refine(wavy_sea(), demand, shore).mesh.triangles == alone.mesh.triangles);
+}
+
+TEST_CASE("finer cells reach the sides and corners of a plane [slow]") {
+  Recipe recipe;
+  recipe.surface = rectangle({0, 0}, {24, 16});
+  recipe.boundary = Boundary::generators;
+  recipe.cells = 440;
+  const Mesh base = make_grid(recipe).mesh;
+  WidthDemand demand;
+  demand.region = rectangle({-1, -1}, {5, 4});
+  demand.factor = 2;
+  const ChangedMesh finer =
+      refine(base, demand, {.gradient = 0.2, .boundary = Boundary::generators});
+  expect_changed(base, finer);
+  CHECK(finer.held == 0);
+  CHECK(from_boundary(finer.mesh, base) < 1e-12);
+  CHECK(std::abs(area_of(finer.mesh) / (24 * 16) - 1) < 1e-12); // no corner is cut off
+  CHECK(check_surface(finer.mesh).failure == "");
+  CHECK(angles_of(finer.mesh)[1] < 91);
+}
+
+TEST_CASE("in a strait without inner sites cells become finer, too") {
+  // Two rows of sites, all of them at the boundary.
+  Points3 sites(3, 60);
+  for (int k = 0; k < 30; ++k) {
+    sites.col(k) << k, 0, 0;
+    sites.col(30 + k) << k + 0.5, 0.9, 0;
+  }
+  const Mesh base = delaunay(sites, Surface::plane());
+  WidthDemand demand;
+  demand.region = rectangle({10, -1}, {20, 2});
+  demand.factor = 2;
+  const ChangedMesh finer =
+      refine(base, demand, {.gradient = 0.2, .boundary = Boundary::generators});
+  expect_changed(base, finer);
+  CHECK(finer.held == 0);
+  CHECK(from_boundary(finer.mesh, base) < 1e-12);
+  CHECK(std::abs(area_of(finer.mesh) / area_of(base) - 1) < 1e-12);
+  CHECK(finer.mesh.points.cols() > 85); // with a third row
 }

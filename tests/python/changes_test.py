@@ -52,6 +52,19 @@ def spacing(mesh, centre):
     return 6371 * np.linalg.norm(a - b, axis=1)[ends].mean()
 
 
+def test_the_shore_of_a_mesh_that_ends_at_generators():
+    sea = calotte.cvt(surface="circle=10,10,1200km", cell_width=150, boundary="generators").mesh
+    with pytest.warns(UserWarning, match="at the boundary"):
+        assert calotte.refine(sea, region="circle=0,10,500km", factor=2, gradient=0.1).held > 0
+    finer = calotte.refine(sea, region="circle=0,10,500km", factor=2, gradient=0.1, boundary="generators")
+    assert finer.held == 0 and finer.well_centred
+    assert spacing(sea, (0, 10)) / spacing(finer.mesh, (0, 10)) == pytest.approx(2, rel=0.1)
+    with pytest.raises(calotte.Error, match="no boundary"):
+        calotte.refine(calotte.cvt(642).mesh, region=SPOT, factor=2, boundary="generators")
+    with pytest.raises(calotte.Error, match="no boundary shore; give one of: clip, generators"):
+        calotte.refine(sea, region=SPOT, factor=2, boundary="shore")
+
+
 def test_a_part_of_the_sphere(base):
     finer = calotte.refine(base, region=SPOT, factor=2)
     keeps(base, finer)

@@ -89,6 +89,34 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
   CHECK(read_mesh(bench.folder() / "finer.vtp", nullptr).points.cols() > 0);
 }
 
+TEST_CASE("cells at the shore become finer where the mesh ends at generators") {
+  const Bench bench;
+  check_success(bench, "cvt --region circle=10,10,1200km --cell-width 150km --boundary generators "
+                       "--depth 300 --open box=-2,5,2,15 -o base.gr3");
+  const std::string circle = "refine base.gr3 --region circle=0,10,500km --factor 2 --gradient 0.1 -o ";
+  const Outcome held = bench.run(circle + "held.gr3");
+  CHECK(held.code == 1);
+  CHECK(has(held.err, "if the mesh ends at generators, give --boundary generators"));
+  CHECK(has(check_success(bench, circle + "finer.gr3 --boundary generators").out,
+            "fields at new cells are those of the nearest old one: open\n"));
+  CHECK(bench.run("check finer.gr3").code == 0);
+  const auto open_nodes = [&](const std::string& name) {
+    const std::string text = bench.file(name);
+    const std::size_t end = text.find(" = number of nodes of open boundaries");
+    REQUIRE(end != std::string::npos);
+    return std::stoi(text.substr(text.rfind('\n', end) + 1));
+  };
+  CHECK(open_nodes("base.gr3") > 5);
+  CHECK(open_nodes("finer.gr3") > 1.6 * open_nodes("base.gr3"));
+  check_success(bench, "cvt --cells 642 -o whole.nc");
+  check_refusals(bench, "refine", R"(
+whole.nc --region circle=0,10,500km --factor 2 --boundary generators -o new.nc | 2 | no boundary
+)");
+  check_refusals(bench, "coarsen", R"(
+base.gr3 --region circle=0,10,500km --factor 2 --boundary generators -o new.gr3 | 2 | --boundary
+)");
+}
+
 TEST_CASE(
     "the end of a change is one line, which says what is good or what is not and what to do") {
   const Bench bench;

@@ -455,6 +455,7 @@ class RefineOptions:
     def __init__(self) -> None: ...
     tolerance: float
     gradient: float
+    boundary: str
     regions: int | None
 
 class FieldMethods:

@@ -1032,15 +1032,15 @@ def _warn_of_change(changed, missed):
 
 def refine(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | None = None,
            factor: float | None = None, gradient: float = _KEPT.gradient,
-           tolerance: float = _KEPT.tolerance, surface: SurfaceLike | None = None,
-           nearest: str | Sequence[str] = (), conservative: str | Sequence[str] = (),
-           regions: int | None = None, progress: Progress | bool | None = None,
+           tolerance: float = _KEPT.tolerance, boundary: str = _KEPT.boundary,
+           surface: SurfaceLike | None = None, nearest: str | Sequence[str] = (),
+           conservative: str | Sequence[str] = (), regions: int | None = None, progress: Progress | bool | None = None,
            earth_radius: float | None = None) -> ChangedMesh:
     """Makes cells of a mesh finer where they are wider than demanded; all others keep their bits.
 
     The cells around grow from there at the gradient; with three to seven rows of cells more they
     form the patches that change. Each patch is a centroidal Voronoi tessellation, beside which two
-    rows of sites stay. Cells at a boundary, and those next to them, stay as well.
+    rows of sites stay. Cells at a boundary, and those next to them, stay as well, but see boundary.
 
     mesh: a Delaunay triangulation. What a file held besides it follows: fields at cells keep the
         values of those that stayed, and are linear between old cells at new ones; whole numbers are
@@ -1052,6 +1052,8 @@ def refine(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | No
         are, more than 1 to 100.
     gradient: the greatest change of the width by distance in the transition, 0.001 to 1.
     tolerance: share of a cell's width within which it meets the demand, 0.01 to 0.5.
+    boundary: "clip"; or for a mesh that ends at its sites, as one of cvt() with this word,
+        "generators": finer cells reach its boundary, where new generators replace its sites.
     surface: as for voronoi(). Default: the mesh's; of a file of a plane what its cells fill.
     nearest: names of fields whose new cells have the value of the nearest old one.
     conservative: names of fields whose new cells have the mean by the areas that they share with old
@@ -1071,7 +1073,7 @@ def refine(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | No
     _require_triangles(mesh)
     demand = _demand(mesh, cell_width, region, factor, earth_radius)
     return _changed(_calotte.refine, mesh, demand, surface, nearest, conservative, progress,
-                    gradient=gradient, tolerance=tolerance, regions=regions)
+                    gradient=gradient, tolerance=tolerance, boundary=boundary, regions=regions)
 
 
 def coarsen(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | None = None,

@@ -4,6 +4,7 @@
 #include "content.h"
 #include "module.h"
 #include "runs.h"
+#include "words.h"
 
 #include <calotte/mesh_file.h>
 #include <calotte/refine.h>
@@ -100,8 +101,8 @@ void add_changes(py::module_& module) {
       .def_readwrite("region", &WidthDemand::region)
       .def_readwrite("factor", &WidthDemand::factor)
       .def_readwrite("radius_km", &WidthDemand::radius_km);
-  py::class_<RefineOptions>(module, "RefineOptions")
-      .def(py::init<>())
+  py::class_<RefineOptions> options(module, "RefineOptions");
+  options.def(py::init<>())
       .def_readwrite("tolerance", &RefineOptions::tolerance)
       .def_readwrite("gradient", &RefineOptions::gradient)
       .def_property(
@@ -109,6 +110,9 @@ void add_changes(py::module_& module) {
           [](RefineOptions& options, std::optional<int> regions) {
             options.decomposition.regions = regions;
           });
+  add_word(
+      options, "boundary", "boundary", boundary_words(),
+      [](auto& of) -> auto& { return of.boundary; });
   py::class_<FieldMethods>(module, "FieldMethods")
       .def(py::init<>())
       .def_readwrite("nearest", &FieldMethods::nearest)
