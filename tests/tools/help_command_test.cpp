@@ -159,6 +159,8 @@ TEST_CASE("help knows the words of modellers, and names options, topics and page
       CHECK(lines[k].size() <= 100);
   }
   CHECK(help_text(bench, "help sea ice") == help_text(bench, "help ocean"));
+  for (const char* word : {"coastline", "straits", "gebco", "schism", "adcirc"})
+    CHECK(has(help_text(bench, std::string("help ") + word), "coasts.md"));
   CHECK(has(help_text(bench, "help dislocations"), "Options that mention \"dislocations\":\n"));
 }
 

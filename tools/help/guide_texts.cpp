@@ -325,10 +325,10 @@ const std::vector<Guide>& guides() {
       {"ocean sea land coastline shore coastal mask land-mask marine culling island lake "
        "gshhg "
        "mpas-ocean mpaso mpas-o",
-       ocean, "oceans.md"},
+       ocean, "oceans.md coasts.md"},
       {"straits strait passage channel gibraltar bosphorus barrier blockage transect connectivity "
        "red-sea",
-       straits, "oceans.md cell-widths.md"},
+       straits, "oceans.md coasts.md cell-widths.md"},
       {"limited-area regional limited lam area region-file nest nesting boundary shape box circle "
        "subdomain "
        "relaxation lbc",
@@ -345,7 +345,7 @@ const std::vector<Guide>& guides() {
       {"units unit metre meter degree kilometre kilometer radian", units,
        "cell-widths.md measures.md"},
       {"bathymetry depth topography height gebco etopo orography elevation", depth,
-       "oceans.md cell-widths.md"},
+       "coasts.md oceans.md cell-widths.md"},
       {"raster netcdf nc xarray-file lat-lon latlon geotiff grib", rasters,
        "cell-widths.md interpolation.md"},
       {"shapefile polygon geojson shp kml line river gis gdal", polygons,
@@ -372,7 +372,7 @@ const std::vector<Guide>& guides() {
       {"remap remapping regrid weight conservative field interpolation", remap, "interpolation.md"},
       {"conversion format ugrid scrip esmf exodus vtk gmsh icon schism adcirc sms hgrid fort.14 "
        "2dm",
-       formats_guide, "formats.md"},
+       formats_guide, "formats.md coasts.md"},
       {"mpas-tools jigsawpy compass polaris", jigsaw, "jigsaw.md"},
       {"finer refined nested coarser change local zoom", local, "changes.md"},
       {"voronoi triangulation scvt lloyd algorithm paper stripack centroidal triangle", algorithms,
