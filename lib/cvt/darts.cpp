@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace calotte::cvt_detail {
 
@@ -22,27 +23,25 @@ Darts::Darts(const Candidates& candidates, const Surface& surface)
 std::vector<std::int64_t> Darts::take(std::int64_t count) const {
   constexpr double first = 0.9, falls = 0.95;
   const auto n = static_cast<std::int64_t>(in_.keys.size());
-  std::vector<std::uint8_t> taken(in_.keys.size(), 0);
+  // The squares of the shares at which others are; those beyond the first share do not count.
+  std::vector<double> square(in_.keys.size(), std::numeric_limits<double>::infinity());
+  for (const Other& other : others_)
+    approach(other, first, square);
   std::vector<std::int64_t> chosen;
   count = std::min(count, n);
-  for (double share = first; std::ssize(chosen) < count; share *= falls) {
-    std::vector<std::uint8_t> near = taken;
-    for (const Other& other : others_)
-      block(other, share, near);
-    for (const std::int64_t i : chosen)
-      block({column(in_.points, i), in_.width[i]}, share, near);
+  for (double share = first; std::ssize(chosen) < count; share *= falls)
     for (std::int64_t i = 0; i < n && std::ssize(chosen) < count; ++i)
-      if (near[static_cast<std::size_t>(i)] == 0) {
+      if (double& least = square[static_cast<std::size_t>(i)]; least >= share * share) {
         chosen.push_back(i);
-        taken[static_cast<std::size_t>(i)] = 1;
-        block({column(in_.points, i), in_.width[i]}, share, near);
+        approach({column(in_.points, i), in_.width[i]}, first, square);
+        least = -1; // taken
       }
-  }
   return chosen;
 }
 
-/// Flags the candidates that are nearer to one than a share of both their widths.
-void Darts::block(const Other& one, double share, std::vector<std::uint8_t>& near) const {
+/// Lowers the squares of candidates to those of their distances from one, over the smaller width of
+/// both, up to a share.
+void Darts::approach(const Other& one, double share, std::vector<double>& square) const {
   const double reach = share * one.width;
   for (const int right : {0, -1, 1})
     for (const int up : {0, -1, 1}) {
@@ -52,9 +51,9 @@ void Darts::block(const Other& one, double share, std::vector<std::uint8_t>& nea
       tree_.visit([&](const Box3& box) { return square_from(box, p) < reach * reach; },
                   [&](std::int32_t other) {
                     const Vec3 way = column(in_.points, other) - p;
-                    const double least = share * std::min(one.width, in_.width[other]);
-                    if (dot(way, way) < least * least)
-                      near[static_cast<std::size_t>(other)] = 1;
+                    const double width = std::min(one.width, in_.width[other]);
+                    double& least = square[static_cast<std::size_t>(other)];
+                    least = std::min(least, dot(way, way) / (width * width));
                   });
     }
 }

@@ -43,7 +43,7 @@ private:
     double width;
   };
 
-  void block(const Other& one, double share, std::vector<std::uint8_t>& near) const;
+  void approach(const Other& one, double share, std::vector<double>& square) const;
 
   const Candidates& in_;
   Eigen::Vector2d period_; ///< of the surface, 0 where it has none

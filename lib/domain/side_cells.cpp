@@ -133,7 +133,7 @@ SideCells::SideCells(std::vector<Arc> arcs, Corner corner) : arcs_(std::move(arc
 /// Bisects the squares of one level through which many arcs pass, and keeps the others. Where
 /// bisection lengthens the lists too much, all are kept.
 std::vector<SideCells::Part> SideCells::bisected(const std::vector<Part>& parts) {
-  constexpr std::size_t few = 6, most_listings = 64;
+  constexpr std::size_t few = 2, most_listings = 64;
   constexpr double least_size = 0x1p-39;
   std::size_t listings = listed_.size();
   for (const Part& part : parts)
