@@ -280,6 +280,14 @@ std::string extent(const std::string& name, const DoubleVector& nodes) {
   return message("{} runs from {} to {}", name, nodes[0], nodes[nodes.size() - 1]);
 }
 
+std::string leaves_out(const Raster& raster, const std::string& x, const std::string& y,
+                       const Eigen::Vector3d& place, const char* of) {
+  const auto [east, north] = base_detail::lonlat_of({place.x(), place.y(), place.z()});
+  return message("{}, {}, and leaves out the place {} {}{}; "
+                 "give a raster in degrees that covers it",
+                 extent(x, raster.x), extent(y, raster.y), east, north, of);
+}
+
 std::string uncovered_sphere(const Raster& raster, const Surface& region, const std::string& x,
                              const std::string& y) {
   const Cover cover = make_cover(raster);
@@ -289,12 +297,7 @@ std::string uncovered_sphere(const Raster& raster, const Surface& region, const 
     return message("{} and leaves part of the sphere out; give a global raster in degrees",
                    cover.around ? extent(y, raster.y) : extent(x, raster.x));
   const std::optional<Eigen::Vector3d> point = point_outside(cover, region);
-  if (!point)
-    return {};
-  const auto [east, north] = base_detail::lonlat_of({point->x(), point->y(), point->z()});
-  return message("{}, {}, and leaves out the place {} {} of the region; "
-                 "give a raster in degrees that covers it",
-                 extent(x, raster.x), extent(y, raster.y), east, north);
+  return point ? leaves_out(raster, x, y, *point, " of the region") : std::string();
 }
 
 std::string uncovered_plane(const Raster& raster, const Surface& plane, const std::string& x,
@@ -326,6 +329,15 @@ std::string uncovered(const Raster& raster, const Surface& surface, const std::s
                       const std::string& y) {
   return raster.of_plane ? uncovered_plane(raster, surface, x, y)
                          : uncovered_sphere(raster, surface, x, y);
+}
+
+std::string uncovered(const Raster& raster, const Points3& places, const std::string& x,
+                      const std::string& y) {
+  const Cover cover = make_cover(raster);
+  for (const auto& place : places.colwise())
+    if (!cover.contains(place))
+      return leaves_out(raster, x, y, place, "");
+  return {};
 }
 
 } // namespace density_detail

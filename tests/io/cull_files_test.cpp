@@ -146,6 +146,27 @@ TEST_CASE("rasters of land: heights, fractions, order of coordinates, packed num
   CHECK(level.values.sum() == 72 * 36 - 1);
 }
 
+TEST_CASE("a raster of a part of the sphere covers the places that are asked for") {
+  const Scratch scratch;
+  const std::string path = scratch / "raster.nc";
+  RasterFile file;
+  file.latitudes = {40, 50, 60};
+  file.longitudes = {170, 180, 190, 200};
+  file.values.assign(12, -70);
+  write_raster(path, file);
+  const auto read_at = [&](double longitude, double latitude) {
+    return read_raster(path, {.quantity = RasterQuantity::height,
+                              .places = from_lonlat(Eigen::Vector2d(longitude, latitude))});
+  };
+  CHECK(read_at(-175, 41).values.minCoeff() == -70);
+  for (const double longitude : {-150, 0, 160})
+    CHECK(has(message_of([&] { read_at(longitude, 50); }),
+              "lon runs from 170 to 200, lat runs from 40 to 60, and leaves out the place "));
+  CHECK(has(message_of([&] { read_at(180, 70); }), "leaves out the place 180 70"));
+  CHECK(has(message_of([&] { read_raster(path, {.quantity = RasterQuantity::height}); }),
+            "leaves part of the sphere out"));
+}
+
 TEST_CASE(
     "the only raster of a file needs no name; of several, and for a wrong name, all are listed") {
   const Scratch scratch;

@@ -2,6 +2,7 @@
 #include "io/command.h"
 #include "support/directions.h"
 #include "support/files.h"
+#include "support/text.h"
 
 #include <calotte/error.h>
 #include <calotte/ocean.h>
@@ -63,8 +64,10 @@ private:
   Scratch folder_;
 };
 
-/// A raster of one value at latitudes -90, 0 and 90 and four longitudes.
-void write_raster(const std::string& path, double value) {
+/// A raster of one value at three latitudes, by default from pole to pole, and four longitudes.
+void write_raster(const std::string& path, double value,
+                  const std::array<double, 3>& south_to_north = {-90, 0, 90},
+                  const std::array<double, 4>& eastward = {0, 90, 180, 270}) {
   int file = 0, lat = 0, lon = 0, latitudes = 0, longitudes = 0, heights = 0;
   REQUIRE(nc_create(path.c_str(), NC_CLOBBER, &file) == NC_NOERR);
   CHECK(nc_def_dim(file, "lat", 3, &lat) == NC_NOERR);
@@ -74,8 +77,6 @@ void write_raster(const std::string& path, double value) {
   CHECK(nc_def_var(file, "lon", NC_DOUBLE, 1, &lon, &longitudes) == NC_NOERR);
   CHECK(nc_def_var(file, "z", NC_DOUBLE, 2, both.data(), &heights) == NC_NOERR);
   CHECK(nc_enddef(file) == NC_NOERR);
-  const std::array<double, 3> south_to_north{-90, 0, 90};
-  const std::array<double, 4> eastward{0, 90, 180, 270};
   const std::vector<double> values(12, value);
   CHECK(nc_put_var_double(file, latitudes, south_to_north.data()) == NC_NOERR);
   CHECK(nc_put_var_double(file, longitudes, eastward.data()) == NC_NOERR);
@@ -263,6 +264,25 @@ TEST_CASE("heights of a file give the widths of waves") {
               "\" is no time; give a number and its unit, s, min, h or d, such as 12.42h");
   CHECK(rules.refused("[cell-width]\nby-depth = \"sea.nc\"\nslope = 5") ==
         " line 1: the rule needs least; give a number");
+}
+
+TEST_CASE("a raster of a rule covers the sphere, or the region that the rule is for") {
+  const Rules rules;
+  write_raster(rules.beside("part.nc"), -4000, {40, 50, 60}, {-10, 0, 10, 20});
+  const std::string depth = "by-depth = \"part.nc\"\nslope = 5\nleast = 2";
+  for (const std::string& rule : {depth, std::string("raster = \"part.nc\"\nvariable = \"z\"")}) {
+    const auto refused = [&](const std::string& within) {
+      return rules.refused("[cell-width]\n" + rule + within);
+    };
+    CHECK(test::has(refused(""), "part.nc: lon runs from -10 to 20"));
+    CHECK(test::has(refused("\nwithin = \"box=0,30,30,50\""), "leaves out the place "));
+  }
+  const DoubleVector widths =
+      rules.widths("by-depth = \"part.nc\"\nperiod = \"12.42h\"\ncells = 60\nleast = 2\n"
+                   "within = \"box=-5,45,15,58\"");
+  CHECK(widths[3] == doctest::Approx(std::sqrt(9.80665 * 4000) * 12.42 * 3600 / 60 / 1000));
+  CHECK(!Widths::is_demand(widths[0]));
+  CHECK(!Widths::is_demand(widths[4]));
 }
 
 TEST_CASE("a distance that is farther than any place names its key") {

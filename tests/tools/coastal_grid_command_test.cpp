@@ -81,6 +81,8 @@ TEST_CASE("depths by a raster are the heights below 0 at the sites") {
   CHECK((depth - expected).cwiseAbs().maxCoeff() < 2); // the meshes are a hundredth apart
   CHECK((depth.array() == 0).count() > 40);            // on land
   CHECK(depth.maxCoeff() > 200);
+  check_success(bench, "convert a.14 b.14 --depth depth --least-depth 50");
+  CHECK(values_of(bench, "b.14", "depth") == depth.cwiseMax(50.0));
 }
 
 TEST_CASE("coastal options that do not apply, and boundaries that are not there, are refused") {

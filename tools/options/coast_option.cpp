@@ -57,7 +57,7 @@ DoubleVector depths_of(const DoubleVector& values) {
 /// Depths by a raster of heights, at the sites. \throws Error as set_coast().
 DoubleVector depths_of_raster(const std::string& path, const Points3& sites) {
   const DoubleVector heights =
-      evaluate(read_raster(path, {.quantity = RasterQuantity::height}), sites);
+      evaluate(read_raster(path, {.quantity = RasterQuantity::height, .places = sites}), sites);
   for (Eigen::Index i = 0; i < heights.size(); ++i)
     if (std::isnan(heights[i])) {
       const Eigen::Vector2d at = to_lonlat(sites.col(i));
@@ -136,6 +136,12 @@ void add_coast(CLI::App& command, CoastWords& words) {
           ->type_name("NAME|FILE|METRES");
   levels->needs(bottom);
   command
+      .add_option("--least-depth", words.least,
+                  "Least depth of the bottom at the sites, metres: what is shallower becomes as "
+                  "deep, also on land")
+      ->capture_default_str()
+      ->needs(bottom);
+  command
       .add_option("--open", words.open,
                   "The open boundary, for SCHISM, ADCIRC, SMS and Gmsh: a region such as "
                   "box=-20,30,40,60 or a file of one, in which both ends of an edge lie, or lines "
@@ -171,7 +177,9 @@ void set_coast(const CoastWords& words, const MeshFile& file, WriteOptions& opti
   if (words.levels)
     options.depth_levels = levels_of(*words.levels);
   if (words.bottom)
-    options.site_depth = bottom_of(*words.bottom, file);
+    options.site_depth = bottom_of(*words.bottom, file).unaryExpr([&](double depth) {
+      return depth < words.least ? words.least : depth; // no number stays none
+    });
   if (!words.open.empty() && file.mesh)
     options.open_sites = open_sites_of(words.open, *file.mesh);
 }

@@ -15,6 +15,7 @@ namespace calotte::tools {
 struct CoastWords {
   std::optional<std::string> levels; ///< FESOM's: numbers, or the name of a file of numbers
   std::optional<std::string> bottom; ///< a number, or the name of a field or of a raster's file
+  double least = 0;                  ///< depth, metres
   std::string open;                  ///< a shape, or a file of lines or a region, or none
 
   bool given() const { return levels || bottom || !open.empty(); }

@@ -113,13 +113,15 @@ Raster ordered(RasterOfFile stored, const std::string& name, const ValueLaw& law
 }
 
 Raster covering(RasterOfFile stored, const std::string& name, const ValueLaw& law,
-                const Surface& surface) {
+                const Surface& surface, const Points3& places) {
   const std::string x_name = stored.x_name, y_name = stored.y_name;
   Raster raster = ordered(std::move(stored), name, law);
   // Only the caller may know the domain of a plane; it then checks again.
   const bool known = surface.is_sphere() || surface.is_bounded() || surface.is_box();
-  const std::string problem =
-      known ? density_detail::uncovered(raster, surface, x_name, y_name) : "";
+  const std::string problem = places.cols() > 0
+                                  ? density_detail::uncovered(raster, places, x_name, y_name)
+                              : known ? density_detail::uncovered(raster, surface, x_name, y_name)
+                                      : "";
   if (!problem.empty())
     fail_file(name, problem);
   return raster;
@@ -354,7 +356,7 @@ Raster read_raster(const std::string& path, const RasterChoice& choice) {
   const ValueLaw law = make_law(quantity, of_plane);
   if (quantity == RasterQuantity::any)
     return ordered(std::move(stored), path, law);
-  Raster raster = covering(std::move(stored), path, law, choice.surface);
+  Raster raster = covering(std::move(stored), path, law, choice.surface, choice.places);
   if (quantity == RasterQuantity::land_fraction || quantity == RasterQuantity::sea_fraction)
     raster.values = raster.values.cwiseMax(0).cwiseMin(1);
   return raster;

@@ -168,7 +168,7 @@ private:
       each([most = table.number("most")](const Widths& rule) {
         return Widths::minimum({rule, most});
       });
-    if (table.takes("within"))
+    if (table.has("within")) // where a raster must cover it, it was read before
       each([share = share_in(region(table, "within"))](const Widths& rule) {
         return Widths::where(share, rule, Widths::no_demand);
       });
@@ -221,9 +221,13 @@ private:
     return surface_.is_sphere() ? read_region(path, radius_km_) : read_domain(path);
   }
 
+  bool is_raster_of_shares(const std::string& path) const {
+    return surface_.is_sphere() && std::filesystem::path(path).extension() == ".nc";
+  }
+
   /// Reads the share of such a part, or of a raster.
   WidthShare share_in(const std::string& path) const {
-    if (surface_.is_sphere() && std::filesystem::path(path).extension() == ".nc")
+    if (is_raster_of_shares(path))
       return read_raster(path, {.quantity = RasterQuantity::land_fraction});
     return part_in(path);
   }
@@ -304,11 +308,20 @@ private:
     return Widths::by_channel(coast(table, path), rule);
   }
 
+  /// What a raster of a rule must cover: the region of `within`, if it is one, or all.
+  Surface covered(RuleTable& table) {
+    if (!surface_.is_sphere())
+      return Surface::plane();
+    const std::string path = table.has("within") ? region(table, "within") : "";
+    return path.empty() || is_raster_of_shares(path) ? Surface() : part_in(path);
+  }
+
   Widths depth(RuleTable& table) {
     const std::string path = file(table, "by-depth");
     const Raster raster = read_raster(
         path, {.variable = table.has("variable") ? table.text("variable", "its name") : "",
-               .quantity = RasterQuantity::height});
+               .quantity = RasterQuantity::height,
+               .surface = covered(table)});
     DepthRule rule{.least = table.number("least")};
     if (table.has("period")) {
       rule.period = seconds(table);
@@ -340,12 +353,12 @@ private:
 
   Widths raster(RuleTable& table) {
     const std::string path = require_no_rules(table, "raster");
-    const Surface whole = surface_.is_sphere() ? Surface() : Surface::plane();
+    const Surface part = covered(table);
     if (table.has("variable"))
       return read_raster(path, {.variable = table.text("variable", "its name"),
                                 .quantity = RasterQuantity::cell_width,
-                                .surface = whole});
-    return read_cell_width(path, {}, whole);
+                                .surface = part});
+    return read_cell_width(path, {}, part);
   }
 
   Widths polygons(RuleTable& table) {
