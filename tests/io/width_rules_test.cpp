@@ -269,12 +269,13 @@ TEST_CASE("heights of a file give the widths of waves") {
 TEST_CASE("a raster of a rule covers the sphere, or the region that the rule is for") {
   const Rules rules;
   write_raster(rules.beside("part.nc"), -4000, {40, 50, 60}, {-10, 0, 10, 20});
-  const std::string depth = "by-depth = \"part.nc\"\nslope = 5\nleast = 2";
-  for (const std::string& rule : {depth, std::string("raster = \"part.nc\"\nvariable = \"z\"")}) {
+  write_raster(rules.beside("widths.nc"), 60, {40, 50, 60}, {-10, 0, 10, 20});
+  for (const std::string rule : {"by-depth = \"part.nc\"\nslope = 5\nleast = 2",
+                                 "raster = \"widths.nc\"\nvariable = \"z\""}) {
     const auto refused = [&](const std::string& within) {
-      return rules.refused("[cell-width]\n" + rule + within);
+      return test::message_of([&] { rules.widths(rule + within); });
     };
-    CHECK(test::has(refused(""), "part.nc: lon runs from -10 to 20"));
+    CHECK(test::has(refused(""), ".nc: lon runs from -10 to 20"));
     CHECK(test::has(refused("\nwithin = \"box=0,30,30,50\""), "leaves out the place "));
   }
   const DoubleVector widths =
