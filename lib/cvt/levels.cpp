@@ -198,8 +198,9 @@ Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<
   return points;
 }
 
-/// The widths of cells of the zone along a boundary of generators, where a bisection leaves too
-/// many points or too few: those of the boundary are as dense at all levels.
+/// The widths of cells of the zone along a boundary, where a bisection leaves too many points or too
+/// few: generators of the boundary are as dense at all levels, and a cell of a coarse level that a
+/// strait divides reaches into the seas on both sides, so that one of them lacks its points.
 constexpr double zone = 4, beside_zone = 5.5;
 
 /// Candidates in the zone: random points in triangles of a coarse mesh, in any order.
@@ -291,8 +292,8 @@ Points3 bisected_points(const State& state, const Mesh& coarse, const Density& d
     const OutlineOf<S>& outline = *outline_of<S>(coarse.surface);
     const DemandedSpacing of_all(coarse.surface, density, static_cast<double>(cells));
     Points3 points = bisected_inside<S>(state, coarse, outline, of_all);
-    if (!state.slides())
-      return points;
+    if (!state.slides() && !has(state, CvtAction::Kind::insert))
+      return points; // as many as bisections make
     const double halves =
         std::ldexp(static_cast<double>(state.on_boundary()), -bisections_left(state)) / 2;
     const DemandedSpacing of_whole(coarse.surface, density,

@@ -18,6 +18,7 @@
 #include <functional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -279,4 +280,40 @@ TEST_CASE("starts in the plane refuse what they cannot make in one line") {
   Mesh wrong = hexagons;
   wrong.triangles.setConstant(48);
   CHECK(has(message_of([&] { bisect(wrong); }), "outside the mesh"));
+}
+
+TEST_CASE("seas behind narrow straits get their part of the cells [slow]") {
+  // A basin of 20 x 20, to the right of it five bays of 3 x 3 behind straits of 0.3 x 2.
+  constexpr int bays = 5;
+  std::vector<Eigen::Vector2d> corners{{0, 20}, {0, 0}, {20, 0}};
+  for (int bay = 0; bay < bays; ++bay) {
+    const double y = 4 * bay + 2;
+    for (const auto& [x, beside] : {std::pair{20.0, -0.15},
+                                    {22.0, -0.15},
+                                    {22.0, -1.5},
+                                    {25.0, -1.5},
+                                    {25.0, 1.5},
+                                    {22.0, 1.5},
+                                    {22.0, 0.15},
+                                    {20.0, 0.15}})
+      corners.emplace_back(x, y + beside);
+  }
+  corners.emplace_back(20, 20);
+  const Points2 ring = Eigen::Map<const Points2>(corners.front().data(), 2, std::ssize(corners));
+  const double area = 400 + bays * (9 + 0.6);
+  for (const Boundary boundary : {Boundary::clip, Boundary::generators}) {
+    Recipe recipe;
+    recipe.surface = Surface::plane().within({ring});
+    recipe.boundary = boundary;
+    recipe.cells = 6000;
+    const Mesh mesh = make_grid(recipe).mesh;
+    const auto n = static_cast<double>(mesh.points.cols());
+    for (int bay = 0; bay < bays; ++bay) {
+      const auto here = (mesh.points.row(0).array() > 22 && mesh.points.row(1).array() > 4 * bay &&
+                         mesh.points.row(1).array() < 4 * bay + 4)
+                            .count();
+      const double edge = boundary == Boundary::generators ? 0.5 * 12 / std::sqrt(area / n) : 0;
+      CHECK((static_cast<double>(here) - edge) / n / (9 / area) == doctest::Approx(1).epsilon(0.1));
+    }
+  }
 }
