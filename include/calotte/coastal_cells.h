@@ -16,8 +16,8 @@ struct CoastalOptions {
   /// between its neighbours that stay; 0 to 0.5. 0 keeps all corners.
   double straightness = 1.0 / 32;
   /// The least length of a Voronoi edge that the boundary cuts, over the distance of its cells; >=
-  /// 0 and at most 0.5. Where an edge is shorter, its end on the boundary moves outwards. 0 moves
-  /// none.
+  /// 0 and at most 0.5. Where an edge is shorter, its end on the boundary moves outwards. Ends of
+  /// an edge on the boundary that is shorter than 0.05 move along both bisectors. 0 moves none.
   double least_edge = 0.2;
 };
 
@@ -29,10 +29,10 @@ struct CoastChanges {
   std::int64_t removed_islands = 0; ///< islands within a cell that became part of the cell
   double island_area = 0;           ///< of these
   std::int64_t removed_corners = 0; ///< of the boundary
-  std::int64_t moved_ends = 0;      ///< of Voronoi edges, from the boundary outwards
+  std::int64_t moved_ends = 0;      ///< of Voronoi edges, off the boundary
   double changed_area = 0;          ///< of cells by both, without sign
   /// Cells that are left with a part of the boundary which their site does not see, or which is
-  /// nearer to it than 0.05: they have kites of negative areas, or distances near 0.
+  /// nearer to it than 0.02: they have kites of negative areas, or distances near 0.
   std::int64_t hidden_cells = 0;
   std::int32_t hidden_cell = -1; ///< the first one
   /// Cells at the boundary with less than a third of the mean area of the cells beside them.

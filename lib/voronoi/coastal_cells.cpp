@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ using Polygon = std::vector<std::int32_t>; ///< vertices of a cell, counter-cloc
 
 /// The least distance of a site from the lines of its cell's sides on the boundary, in widths.
 constexpr double least_seen = 0.05;
+/// The same after ends of edges have moved.
+constexpr double least_left = 0.02;
 
 void connect_and_measure(Voronoi& cells) {
   connect_open(cells);
@@ -76,9 +79,9 @@ bool is_simple(const S& space, const Voronoi& cells, std::span<const std::int32_
 
 /// Whether a site sees all sides of its cell on the boundary from a distance, so that kites beside
 /// them have positive areas. Sides between cells are parts of bisectors, which it always sees.
-/// \param width of the cell.
+/// \param least such distance.
 template <Space S>
-bool is_seen(const S& space, const Voronoi& cells, std::int32_t cell, double width,
+bool is_seen(const S& space, const Voronoi& cells, std::int32_t cell, double least,
              std::span<const std::int32_t> polygon) {
   const Vec3 &site = column(cells.cells, cell), up = S::up(site);
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -86,7 +89,7 @@ bool is_seen(const S& space, const Voronoi& cells, std::int32_t cell, double wid
     const Vec3 way = space.offset(column(cells.vertices, from), column(cells.vertices, to)),
                there = space.offset(column(cells.vertices, from), site);
     if (is_boundary_side(cells, cell, from, to) &&
-        !(dot(up, cross(way, there)) > least_seen * width * norm(way)))
+        !(dot(up, cross(way, there)) > least * norm(way)))
       return false;
   }
   return true;
@@ -129,7 +132,7 @@ void keep_bends(const S& space, const Voronoi& cells, std::span<const std::int32
   keep_bends(space, cells, chain.subspan(farthest), distance, kept);
 }
 
-/// A cell with few corners of the boundary.
+/// A cell with few corners of the boundary, none near the ends of edges between cells.
 template <Space S>
 Polygon straightened(const S& space, const Voronoi& cells, std::int32_t cell, double straightness) {
   const std::span<const std::int32_t> all = cells.vertices_on_cell[cell];
@@ -140,12 +143,21 @@ Polygon straightened(const S& space, const Voronoi& cells, std::int32_t cell, do
     return polygon;
   std::rotate(polygon.begin(), polygon.begin() + (first - all.begin()), polygon.end());
   polygon.push_back(polygon.front());
-  const double distance = straightness * width_of(cells, cell);
+  const double width = width_of(cells, cell), distance = straightness * width,
+               near = std::min(4 * distance, width / 8);
   Polygon kept{polygon.front()};
   for (std::size_t from = 0, to = 1; to < polygon.size(); ++to) {
     if (is_corner(polygon[to]))
       continue;
+    const auto first_bend = std::ssize(kept);
     keep_bends(space, cells, std::span(polygon).subspan(from, to - from + 1), distance, kept);
+    const auto is_near_end = [&](std::int32_t corner) {
+      const auto from_corner = [&](std::int32_t v) {
+        return norm(space.offset(column(cells.vertices, corner), column(cells.vertices, v)));
+      };
+      return std::min(from_corner(polygon[from]), from_corner(polygon[to])) < near;
+    };
+    kept.erase(std::remove_if(kept.begin() + first_bend, kept.end(), is_near_end), kept.end());
     kept.push_back(polygon[to]);
     from = to;
   }
@@ -158,10 +170,9 @@ Polygon straightened(const S& space, const Voronoi& cells, std::int32_t cell, do
 
 /// A cell without those corners of the boundary that are not needed, and without those that hide
 /// a part of the boundary from the site.
-/// \param hidden set to true if a part stays hidden.
 template <Space S>
-Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell, double straightness,
-                       bool& hidden) {
+Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell,
+                       double straightness) {
   constexpr double farthest = 0.5; // that a corner may be from the line that replaces it
   const std::span<const std::int32_t> all = cells.vertices_on_cell[cell];
   Polygon fewest(all.begin(), all.end());
@@ -169,7 +180,8 @@ Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell, 
   const auto suits = [&](double share) {
     Polygon polygon = straightened(space, cells, cell, share);
     const bool simple = polygon.size() == all.size() || is_simple(space, cells, polygon),
-               seen = simple && is_seen(space, cells, cell, width_of(cells, cell), polygon);
+               seen = simple &&
+                      is_seen(space, cells, cell, least_seen * width_of(cells, cell), polygon);
     if (seen || (simple && !found))
       fewest = std::move(polygon);
     found = found || simple;
@@ -180,7 +192,8 @@ Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell, 
   for (double share = 2 * straightness; straightness > 0 && share <= farthest; share *= 2)
     if (suits(share))
       return fewest;
-  hidden = straightness == 0 || !suits(std::numeric_limits<double>::infinity());
+  if (straightness > 0)
+    suits(std::numeric_limits<double>::infinity());
   return fewest;
 }
 
@@ -209,12 +222,8 @@ void straighten(const S& space, double straightness, CoastChanges& changes, Voro
   for (std::int32_t i = 0; i < cells.cells.cols(); ++i) {
     lists.begin[i] = std::ssize(items);
     const std::span<const std::int32_t> all = cells.vertices_on_cell[i];
-    bool hidden = false;
-    const Polygon polygon = is_at_boundary(cells, i)
-                                ? fewest_corners(space, cells, i, straightness, hidden)
-                                : Polygon(all.begin(), all.end());
-    if (hidden && changes.hidden_cells++ == 0)
-      changes.hidden_cell = i;
+    const Polygon polygon = is_at_boundary(cells, i) ? fewest_corners(space, cells, i, straightness)
+                                                     : Polygon(all.begin(), all.end());
     items.insert(items.end(), polygon.begin(), polygon.end());
   }
   lists.begin[cells.cells.cols()] = std::ssize(items);
@@ -229,25 +238,59 @@ void straighten(const S& space, double straightness, CoastChanges& changes, Voro
 Vec3 moved(const Sphere&, const Vec3& x, const Vec3& way) { return normalised(x + way); }
 Vec3 moved(const Plane&, const Vec3& x, const Vec3& way) { return x + way; }
 
-/// Moves an end of an edge between two cells along their bisector, away from the other end, unless
-/// a cell would overlap itself. \returns whether it did.
+/// An end of an edge between two cells, on the boundary.
+struct End {
+  std::int64_t edge;
+  int end; ///< 0 or 1 of its vertices
+};
+
+std::int32_t vertex_of(const Voronoi& cells, End at) {
+  return cells.vertices_on_edge(at.end, at.edge);
+}
+
+/// The end of the edge between two cells at a vertex on the boundary, if there is one.
+std::optional<End> inner_end(const Voronoi& cells, std::int32_t vertex) {
+  for (const std::int32_t e : cells.edges_on_vertex.col(vertex))
+    if (e >= 0 && cells.cells_on_edge(1, e) >= 0)
+      return End{e, cells.vertices_on_edge(0, e) == vertex ? 0 : 1};
+  return std::nullopt;
+}
+
+/// The unit vector along the bisector, away from the edge.
+template <Space S> Vec3 outward(const S& space, const Voronoi& cells, End at) {
+  const Vec3 way = space.offset(column(cells.cells, cells.cells_on_edge(0, at.edge)),
+                                column(cells.cells, cells.cells_on_edge(1, at.edge)));
+  const Vec3 left = cross(S::up(column(cells.vertices, vertex_of(cells, at))), way);
+  return (at.end == 0 ? -1 : 1) / norm(left) * left;
+}
+
+/// Moves an end along its bisector, outwards or by less than 0 inwards, unless a cell would overlap
+/// itself, or hide a part of the boundary from a site that sees all of it. \param widths of the
+/// cells. \returns whether it did.
 template <Space S>
-bool move_end(const S& space, std::int64_t e, int end, double distance, Voronoi& cells) {
-  const std::int32_t v = cells.vertices_on_edge(end, e), a = cells.cells_on_edge(0, e),
-                     b = cells.cells_on_edge(1, e);
-  const Vec3 x = column(cells.vertices, v),
-             left = cross(S::up(x), space.offset(column(cells.cells, a), column(cells.cells, b)));
-  set_column(cells.vertices, v,
-             moved(space, x, (end == 0 ? -distance : distance) / norm(left) * left));
-  if (is_simple(space, cells, cells.vertices_on_cell[a]) &&
-      is_simple(space, cells, cells.vertices_on_cell[b]))
+bool move_end(const S& space, const DoubleVector& widths, End at, double distance, Voronoi& cells) {
+  const auto pair = cells.cells_on_edge.col(at.edge);
+  const auto suits = [&](std::int32_t cell) {
+    return is_simple(space, cells, cells.vertices_on_cell[cell]);
+  };
+  const auto seen = [&](std::int32_t cell) {
+    return is_seen(space, cells, cell, least_left * widths[cell], cells.vertices_on_cell[cell]);
+  };
+  const bool before_a = seen(pair(0)), before_b = seen(pair(1));
+  const std::int32_t v = vertex_of(cells, at);
+  const Vec3 x = column(cells.vertices, v);
+  set_column(cells.vertices, v, moved(space, x, distance * outward(space, cells, at)));
+  if (suits(pair(0)) && suits(pair(1)) && (!before_a || seen(pair(0))) &&
+      (!before_b || seen(pair(1))))
     return true;
   set_column(cells.vertices, v, x);
   return false;
 }
 
 /// Moves ends of short edges outwards. \pre connected and measured.
-template <Space S> std::int64_t lengthen(const S& space, double least_edge, Voronoi& cells) {
+template <Space S>
+std::int64_t lengthen(const S& space, const DoubleVector& widths, double least_edge,
+                      Voronoi& cells) {
   std::int64_t count = 0;
   for (std::int64_t e = 0; e < cells.cells_on_edge.cols() && cells.cells_on_edge(1, e) >= 0; ++e) {
     const bool right = is_on_boundary(cells, cells.vertices_on_edge(0, e)),
@@ -256,10 +299,52 @@ template <Space S> std::int64_t lengthen(const S& space, double least_edge, Voro
     if (!(lacking > 0) || (!right && !left))
       continue;
     const double each = right && left ? lacking / 2 : lacking;
-    count += right && move_end(space, e, 0, each, cells) ? 1 : 0;
-    count += left && move_end(space, e, 1, each, cells) ? 1 : 0;
+    for (const auto& [moves, end] : {std::pair{right, 0}, {left, 1}})
+      for (double share = 1; moves && share > 0.2; share -= 0.25)
+        if (move_end(space, widths, {e, end}, share * each, cells)) {
+          ++count;
+          break;
+        }
   }
   return count;
+}
+
+/// The length of an edge between two cells, as the vertices are.
+template <Space S> double length_of(const S& space, const Voronoi& cells, std::int64_t e) {
+  return norm(space.offset(column(cells.vertices, cells.vertices_on_edge(0, e)),
+                           column(cells.vertices, cells.vertices_on_edge(1, e))));
+}
+
+/// Moves the ends of a short edge on the boundary along both bisectors, to where they are farther
+/// from each other: a cell may touch the boundary with its tip alone. \returns whether it did.
+template <Space S>
+bool widen(const S& space, const DoubleVector& widths, double least_edge, std::int64_t e,
+           Voronoi& cells) {
+  constexpr double least = 0.05, farthest = 0.25; // widths
+  const std::int32_t from = cells.vertices_on_edge(0, e), to = cells.vertices_on_edge(1, e);
+  const double width = widths[cells.cells_on_edge(0, e)];
+  const Vec3 start = column(cells.vertices, from),
+             way = space.offset(start, column(cells.vertices, to));
+  if (!(norm(way) < least * width))
+    return false;
+  const std::optional<End> first = inner_end(cells, from), last = inner_end(cells, to);
+  if (!first || !last)
+    return false;
+  const Vec3 of_first = outward(space, cells, *first), of_last = outward(space, cells, *last);
+  const Vec3 along =
+      normalised(cross(S::up(start), of_first + of_last)); // with the cell to the left
+  const double distance = (least * width - dot(way, along)) / dot(of_last - of_first, along);
+  const auto leaves_edge = [&](End at) {
+    return length_of(space, cells, at.edge) + distance > least_edge * cells.dc[at.edge];
+  };
+  if (!(std::abs(distance) < farthest * width) || !leaves_edge(*first) || !leaves_edge(*last))
+    return false;
+  if (move_end(space, widths, *first, distance, cells)) {
+    if (move_end(space, widths, *last, distance, cells))
+      return true;
+    set_column(cells.vertices, from, start);
+  }
+  return false;
 }
 
 // ---- Edges on the boundary
@@ -290,10 +375,21 @@ template <Space S> Points3 boundary_edges(const S& space, const Voronoi& cells) 
     const double share = foot > margin ? std::min(foot, 1 - margin) : margin; // NaN: any
     const Vec3 at = moved(space, from, share * (to - from));
     const std::int32_t cell = cells.cells_on_edge(0, e);
-    if (norm(space.offset(column(cells.cells, cell), at)) > least_seen * width_of(cells, cell))
+    if (norm(space.offset(column(cells.cells, cell), at)) > least_left * width_of(cells, cell))
       set_column(edges, e, at);
   }
   return edges;
+}
+
+/// Counts cells that hide a part of the boundary from their sites.
+template <Space S>
+void count_hidden(const S& space, const DoubleVector& widths, const Voronoi& cells,
+                  CoastChanges& changes) {
+  for (std::int32_t i = 0; i < cells.cells.cols(); ++i)
+    if (is_at_boundary(cells, i) &&
+        !is_seen(space, cells, i, least_left * widths[i], cells.vertices_on_cell[i]) &&
+        changes.hidden_cells++ == 0)
+      changes.hidden_cell = i;
 }
 
 /// Counts cells that are slivers.
@@ -332,11 +428,15 @@ CoastalCells coastal_cells(const Mesh& mesh, const CoastalOptions& options) {
   drop_unused_vertices(cells);
   connect_and_measure(cells);
   in_space_of(mesh.surface, [&](const auto& space) {
-    const DoubleVector before = cells.cell_area;
+    const DoubleVector before = cells.cell_area, widths = before.cwiseSqrt();
     straighten(space, options.straightness, out.changes, cells);
     connect_and_measure(cells);
-    out.changes.moved_ends = lengthen(space, options.least_edge, cells);
+    out.changes.moved_ends = lengthen(space, widths, options.least_edge, cells);
+    for (std::int64_t e = 0; e < cells.cells_on_edge.cols(); ++e)
+      if (options.least_edge > 0 && cells.cells_on_edge(1, e) < 0)
+        out.changes.moved_ends += widen(space, widths, options.least_edge, e, cells) ? 2 : 0;
     measure_open(cells, boundary_edges(space, cells));
+    count_hidden(space, widths, cells, out.changes);
     count_small(cells, out.changes);
     out.changes.changed_area = (cells.cell_area - before).cwiseAbs().sum();
   });

@@ -311,6 +311,35 @@ TEST_CASE("short edges behind the boundary are lengthened") {
   CHECK(shortest(coastal.voronoi) > 0.199);
 }
 
+TEST_CASE("edges on the boundary have a length") {
+  const Surface sea = region_of({square(0, 0, 10)});
+  const auto shortest = [](const Voronoi& cells) {
+    double least = 10;
+    for (Eigen::Index e = 0; e < cells.dv.size(); ++e)
+      if (cells.cells_on_edge(1, e) < 0)
+        least =
+            std::min(least, cells.dv[e] / std::sqrt(cells.cell_area[cells.cells_on_edge(0, e)]));
+    return least;
+  };
+  // The first cell has its tip between the next two, where these meet the northern side.
+  int found = 0;
+  for (double latitude = 1.8; latitude < 2.2; latitude += 0.002) {
+    const Points3 points =
+        ring_of({{0, 0}, {-6, latitude}, {6, latitude}, {-6, -6}, {6, -6}, {0, -8}});
+    const Mesh mesh = delaunay(points, sea);
+    if (!(shortest(voronoi(mesh)) < 0.04))
+      continue;
+    ++found;
+    const CoastalCells coastal = coastal_cells(mesh);
+    check_complex(coastal.voronoi);
+    CHECK(coastal.changes.moved_ends == 2);
+    CHECK(shortest(coastal.voronoi) > 0.049);
+    CHECK(coastal.changes.hidden_cells == 0);
+    CHECK(least_kite(coastal.voronoi) > 0);
+  }
+  CHECK(found > 3);
+}
+
 TEST_CASE("coastal cells of unsuitable arguments are refused in one line") {
   const Surface sea = region_of({square(0, 0, 20)});
   const Points3 points = random_points(40, sea, {}, 2);
