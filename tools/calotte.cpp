@@ -72,6 +72,7 @@ void run(CLI::App& app, int argc, char** argv) {
   add_coast(app);
   add_refine(app);
   add_coarsen(app);
+  add_rotate(app);
   add_interpolate(app);
   add_partition(app);
   add_jigsaw(app);

@@ -4,6 +4,7 @@
 #include "options/mesh_source.h"
 #include "options/model_option.h"
 #include "run/exit_code.h"
+#include "run/mesh_findings.h"
 #include "run/model_gates.h"
 #include "run/progress.h"
 #include "run/shapes.h"
@@ -26,36 +27,6 @@
 
 namespace calotte::tools {
 namespace {
-
-/// What is proven of a mesh, and counted where that is not all.
-struct Findings {
-  CheckReport check;               ///< of a mesh that is not Delaunay: as a surface
-  bool delaunay = false;           ///< the mesh is the Delaunay triangulation of its points
-  std::optional<EdgeCounts> edges; ///< of a mesh that is not
-  std::string failure;             ///< why the check fails; empty if it passes
-};
-
-/// A mesh whose edges are all Delaunay passes: a foreign mesh may have the other diagonals of
-/// cocircular sites, or a boundary that is not convex.
-Findings findings_of(const Mesh& mesh, const ProgressCallback& progress) {
-  Findings found;
-  found.check = check(mesh, progress);
-  found.delaunay = found.check.passed();
-  if (found.delaunay)
-    return found;
-  const std::string strict = found.check.failure;
-  found.check = check_surface(mesh, progress);
-  found.failure = found.check.failure;
-  if (!found.failure.empty())
-    return found;
-  const EdgeCounts& edges = found.edges.emplace(count_edges(mesh));
-  if (edges.not_delaunay > 0)
-    found.failure = message("{} of {} edges are not Delaunay; the first is from site {} to {}",
-                            edges.not_delaunay, edges.edges, edges.first[0], edges.first[1]);
-  else if (edges.boundary == 0 && edges.cocircular == 0)
-    found.failure = strict;
-  return found;
-}
 
 /// What the areas are compared with.
 std::string area_line(const CheckReport& result, bool plane) {
@@ -133,13 +104,9 @@ void run_check(const MeshSource& source, const std::optional<std::string>& word)
     progress.stage("checking " + source.path);
     text = changes_of(source, file);
     const ModelNeeds* model = model_of(word);
-    // Cells without triangles of their own are checked as cells; a periodic plane has triangles.
-    const Mesh* plane = file.plane();
-    const bool own_triangles = plane ? !file.polygons || plane->surface.period().maxCoeff() > 0
-                                     : file.mesh && !(file.polygons && file.mesh->closed());
-    if (own_triangles) {
+    if (has_own_triangles(file)) {
       const Findings found = findings_of(*file.mesh, progress.bar());
-      text += table(found, plane != nullptr);
+      text += table(found, file.plane() != nullptr);
       add(found.failure);
     }
     if (file.polygons) {

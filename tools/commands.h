@@ -23,6 +23,7 @@ void add_cull(CLI::App& app);
 void add_coast(CLI::App& app);
 void add_refine(CLI::App& app);
 void add_coarsen(CLI::App& app);
+void add_rotate(CLI::App& app);
 void add_interpolate(CLI::App& app);
 void add_partition(CLI::App& app);
 void add_jigsaw(CLI::App& app);

@@ -30,6 +30,8 @@
 #include <calotte/read.h>          // files that are read
 #include <calotte/refine.h>        // finer or coarser cells in a part
 #include <calotte/remap.h>         // weights and interpolation
+#include <calotte/rotate.h>        // files that are rotated, with their fields
+#include <calotte/rotation.h>      // rotations of the sphere
 #include <calotte/surface.h>       // the sphere, planes and their parts
 #include <calotte/version.h>       // the version
 #include <calotte/voronoi.h>       // the dual mesh, its edges and fields

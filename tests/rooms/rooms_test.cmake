@@ -46,7 +46,7 @@ endforeach()
 
 # The rooms of the public headers. One that has a room's name belongs to that room.
 set(headers_of_base error export matrices progress surface version)
-set(headers_of_mesh check locate)
+set(headers_of_mesh check locate rotation)
 set(headers_of_density raster widths)
 set(headers_of_grids grid limited_area refine)
 set(headers_of_voronoi coastal_cells)

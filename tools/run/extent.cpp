@@ -18,7 +18,7 @@ namespace calotte::tools {
 namespace {
 
 /// What the rings of a region say of its extent. Longitudes and latitudes in degrees.
-struct Boundary {
+struct PartBoundary {
   std::array<double, 2> latitudes{90, -90};
   std::vector<double> longitudes; ///< of points that are no poles
   std::array<bool, 2> at_pole{};  ///< whether it passes the south pole, the north pole
@@ -26,7 +26,7 @@ struct Boundary {
 };
 
 /// Adds a point. \return its longitude; none at a pole.
-std::optional<double> add_point(const Eigen::Vector3d& x, Boundary& boundary) {
+std::optional<double> add_point(const Eigen::Vector3d& x, PartBoundary& boundary) {
   constexpr double rounding = 1e-12;
   const Points2 at = to_lonlat(x);
   std::array<double, 2>& y = boundary.latitudes;
@@ -42,7 +42,7 @@ std::optional<double> add_point(const Eigen::Vector3d& x, Boundary& boundary) {
 /// Adds an arc: its ends, its middle, and its highest and lowest point if it passes them.
 /// \return degrees that it turns to the east; none if it passes a pole.
 std::optional<double> add_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                              Boundary& boundary) {
+                              PartBoundary& boundary) {
   bool passes_pole = !add_point(from + to, boundary);
   const Eigen::Vector3d normal = from.cross(to);
   const Eigen::Vector3d top = normal.squaredNorm() * Eigen::Vector3d::UnitZ() - normal.z() * normal;
@@ -56,7 +56,7 @@ std::optional<double> add_arc(const Eigen::Vector3d& from, const Eigen::Vector3d
                                        : std::optional(std::remainder(*east - *west, 360));
 }
 
-void add_ring(const DoubleMatrix& ring, Boundary& boundary) {
+void add_ring(const DoubleMatrix& ring, PartBoundary& boundary) {
   std::optional<double> turned = 0;
   for (Eigen::Index i = 0; i < ring.cols(); ++i) {
     const std::optional<double> turn =
@@ -80,7 +80,7 @@ std::array<double, 2> spanned(std::vector<double> longitudes) {
 }
 
 Extent extent_on_sphere(const Surface& surface) {
-  Boundary boundary;
+  PartBoundary boundary;
   for (const DoubleMatrix& ring : surface.rings())
     add_ring(ring, boundary);
   Extent extent{.y = boundary.latitudes, .all_around = boundary.goes_round};

@@ -36,6 +36,7 @@ std::int64_t edge_count(const Voronoi& voronoi, std::int64_t e) {
 
 using D = MpasDimension;
 using N = MpasNumbers;
+using T = MpasTurn;
 
 void add_coordinates(const MpasKind& kind, std::vector<MpasVariable>& table) {
   table.push_back({.name = kind.latitude(),
@@ -252,12 +253,26 @@ std::vector<MpasVariable> measures() {
 /// Variables that the initialisation of models adds.
 std::vector<MpasVariable> additions() {
   return {
-      {.name = "defc_a", .numbers = N::per_length, .of_models = true},
-      {.name = "defc_b", .numbers = N::per_length, .of_models = true},
+      {.name = "defc_a", .numbers = N::per_length, .of_models = true, .turn = T::east2},
+      {.name = "defc_b", .numbers = N::per_length, .of_models = true, .turn = T::north},
       {.name = "deriv_two", .numbers = N::per_area, .of_models = true},
-      {.name = "cell_gradient_coef_x", .numbers = N::per_length, .of_models = true},
-      {.name = "cell_gradient_coef_y", .numbers = N::per_length, .of_models = true},
-      {.name = "edgeNormalVectors", .numbers = N::normal, .of_models = true},
+      {.name = "cell_gradient_coef_x",
+       .numbers = N::per_length,
+       .of_models = true,
+       .turn = T::east},
+      {.name = "cell_gradient_coef_y",
+       .numbers = N::per_length,
+       .of_models = true,
+       .turn = T::north},
+      {.name = "edgeNormalVectors", .numbers = N::normal, .of_models = true, .turn = T::vectors},
+      {.name = "edgeTangentVectors", .of_models = true, .turn = T::vectors},
+      {.name = "localVerticalUnitVectors", .of_models = true, .turn = T::vectors},
+      {.name = "cellTangentPlane", .of_models = true, .turn = T::vectors},
+      {.name = "coeffs_reconstruct", .of_models = true, .turn = T::vectors},
+      {.name = "baryWeightsOnVertex", .of_models = true}, // three numbers, and no vector
+      {.name = "fCell", .of_models = true, .turn = T::coriolis},
+      {.name = "fEdge", .of_models = true, .turn = T::coriolis},
+      {.name = "fVertex", .of_models = true, .turn = T::coriolis},
       {.name = "advCells", .integer = true, .numbers = N::lists_of_ids, .of_models = true},
       {.name = "advCellsForEdge", .integer = true, .numbers = N::lists_of_ids, .of_models = true},
   };

@@ -86,6 +86,17 @@ enum class MpasNumbers {
   lists_of_ids, ///< lists of ids that models make, in formats of their own
 };
 
+/// How a variable that models add turns with a mesh that is rotated; the variables of the mesh
+/// follow from its points.
+enum class MpasTurn {
+  none,    ///< it stays
+  vectors, ///< Cartesian vectors, in the last dimension
+  east,    ///< eastward components; the next row of the table has the northward ones
+  east2,   ///< cosines of twice an angle from east; the next row has the sines
+  north,   ///< those of the row before
+  coriolis ///< a function of the latitude
+};
+
 /// The end of the long_name of ids.
 inline constexpr const char* index_base = ", 1-based; 0 where there is none";
 
@@ -103,6 +114,7 @@ struct MpasVariable {
   /// Models add the variable to meshes. It is neither written nor checked, but may be read as a
   /// field.
   bool of_models = false;
+  MpasTurn turn = MpasTurn::none; ///< of those that models add
 };
 
 /// All rows of the table, in the order of variables in a file where that matters.
