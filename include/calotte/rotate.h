@@ -13,13 +13,14 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// The names of a file's fields, by what a rotation makes of them. Components along the normals and
-/// tangents of edges turn with the edges, and keep their values.
+/// The names of a file's fields, by what a rotation makes of them.
 struct TurnedFields {
   /// Directions, which turn with the mesh: zonal and meridional components of one vector, which
   /// their names, long_name or standard_name show (zonal, eastward; meridional, northward);
   /// Cartesian components in three fields whose names end in X, Y and Z; and what MPAS stores of
-  /// directions, such as localVerticalUnitVectors. Values are missing where a component is.
+  /// directions, such as localVerticalUnitVectors. They stay where a component has no value. And
+  /// components along the normals and tangents of edges, which turn with these, and so keep their
+  /// values: see MeshField::directed.
   std::vector<std::string> turned;
   /// Parameters of Coriolis (fCell, fEdge, fVertex) that were 2 Omega sin(latitude) within 1e-6,
   /// and are so at the new latitudes, with the same Omega.

@@ -4,8 +4,8 @@
 #include "curve/room.h"
 
 /// The structure of a mesh: its edges, the triangles around each vertex, neighbours rebuilt from
-/// triangles alone, its numbering, and the proof that it is the Delaunay triangulation of its
-/// points.
+/// triangles alone, its numbering, its rotation, and the proof that it is the Delaunay
+/// triangulation of its points.
 ///
 /// In: points and triangles. Out: adjacency, the same mesh in another numbering, or the first law
 /// that does not hold.

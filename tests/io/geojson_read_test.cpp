@@ -25,6 +25,7 @@ using calotte::MeshFile;
 using calotte::Points3;
 using calotte::Polygons;
 using calotte::PolygonShapes;
+using calotte::Surface;
 using namespace calotte::test;
 
 namespace {

@@ -254,6 +254,54 @@ def test_bad_demands(base, arguments, words):
         assert "\n" not in str(caught.value)
 
 
+def test_rotations(file, tmp_path):
+    base = read_all(file)
+    there = calotte.rotate(base, from_=(10, 20), to=(-105, 40), bearing=30)
+    assert (there.triangles == base.triangles).all() and bool(calotte.check(there))
+    assert (there.fields["height"] == base.fields["height"]).all()
+    boulder = calotte.from_lonlat([(-105, 40)])[0]
+    moved = calotte.rotate(calotte.delaunay(calotte.from_lonlat([(10, 20), (0, 90), (90, 0), (-130, -30)])),
+                           from_=(10, 20), to=(-105, 40))
+    assert abs(moved.points[0] - boulder).max() < 1e-15
+    back = calotte.rotate(there, from_=(-105, 40), to=(10, 20), bearing=-30)
+    assert abs(back.points / 6371220 - base.points / 6371220).max() <= 3e-16
+    assert there._order == "input"
+    there.to_mpas(tmp_path / "python.nc")
+    subprocess.run([COMMAND, "rotate", file, "--from", "10,20", "--to", "-105,40", "--bearing", "30", "-o",
+                    tmp_path / "command.nc"], check=True, capture_output=True)
+    ours, theirs = read_all(tmp_path / "python.nc"), read_all(tmp_path / "command.nc")
+    assert (ours.points == theirs.points).all() and (ours.triangles == theirs.triangles).all()
+
+
+def test_rotated_directions(tmp_path):
+    base = calotte.cvt(642).mesh
+    x = base.points
+    east = np.stack([-x[:, 1], x[:, 0], 0 * x[:, 0]], axis=1)
+    base.to_mpas(tmp_path / "winds.nc", fields={"windZonal": np.hypot(x[:, 0], x[:, 1]), "windMeridional": 0 * x[:, 0],
+                                                "stressZonal": x[:, 0]})
+    with pytest.warns(UserWarning, match="not turned, and wrong at the new place: stressZonal"):
+        there = calotte.rotate(read_all(tmp_path / "winds.nc"), from_=(0, 90), to=(0, 0))
+    wind = np.cross([1, 0, 0], there.points)   # the axis of rotation moved with the mesh
+    to_east = np.stack([-there.points[:, 1], there.points[:, 0], 0 * east[:, 0]], axis=1)
+    to_east /= np.linalg.norm(to_east, axis=1)[:, None]
+    assert abs(there.fields["windZonal"] - (wind * to_east).sum(axis=1)).max() < 1e-14
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ({"from_": (0, 91), "to": (0, 0)}, "the latitude 91; give finite degrees"),
+    ({"from_": (0, 0, 1), "to": (0, 0)}, "from_ is .0, 0, 1.; give .longitude, latitude. in degrees"),
+    ({"from_": "0,0", "to": (0, 0)}, "from_ must be numbers"),
+    ({"from_": (0, 0), "to": (0, 0), "bearing": np.inf}, "the bearing is"),
+])
+def test_bad_rotations(base, arguments, words):
+    with pytest.raises(calotte.Error, match=words) as caught:
+        calotte.rotate(base, **arguments)
+    assert "\n" not in str(caught.value)
+    plane = calotte.cvt(100, surface=calotte.rectangle((0, 0), (1, 1))).mesh
+    with pytest.raises(calotte.Error, match="a mesh of the sphere"):
+        calotte.rotate(plane, from_=(0, 0), to=(1, 1))
+
+
 def test_other_grids(tmp_path):
     channel = calotte.cvt(200, surface=calotte.periodic_box(2, 1), walls="y")
     with pytest.raises(calotte.Error, match="polygons have no triangles; give a mesh"):

@@ -13,10 +13,10 @@ using namespace calotte::test;
 
 namespace {
 
-const std::vector<std::string> commands{"delaunay",  "cvt",    "plan",   "points",  "check",
-                                        "info",      "draw",   "view",   "convert", "cut",
-                                        "cull",      "coast",  "refine", "coarsen", "interpolate",
-                                        "partition", "jigsaw", "marche", "version"};
+const std::vector<std::string> commands{"delaunay",    "cvt",       "plan",   "points",  "check",
+                                        "info",        "draw",      "view",   "convert", "cut",
+                                        "cull",        "coast",     "refine", "coarsen", "rotate",
+                                        "interpolate", "partition", "jigsaw", "marche",  "version"};
 
 /// The text of a help, checked to succeed.
 std::string help_text(const Bench& bench, const std::string& arguments) {
@@ -127,7 +127,7 @@ TEST_CASE("help knows the words of modellers, and names options, topics and page
   std::string all;
   for (const char* options :
        {"delaunay", "cvt", "plan", "points", "check", "info", "draw", "view", "convert", "cut",
-        "cull", "coast", "refine", "coarsen", "interpolate", "partition"})
+        "cull", "coast", "refine", "coarsen", "rotate", "interpolate", "partition"})
     all += help_text(bench, std::string(options) + " --help-all");
   const std::filesystem::path pages = CALOTTE_FIXTURES "/../../tools/manual";
   for (const std::string word :

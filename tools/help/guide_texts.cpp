@@ -253,6 +253,14 @@ constexpr const char* local =
   calotte coarsen earth.nc --region circle=150,10,3000km --factor 1.5 -o coarser.nc
 )";
 
+constexpr const char* rotation =
+    R"(A grid rotated to where it is needed, with its fields; ids and areas stay.
+
+  calotte rotate fine.nc --from 0,0 --to -105,40 -o rockies.nc
+
+What turns of fields, and what must be made anew, the command says.
+)";
+
 constexpr const char* algorithms = R"(Triangulations and tessellations of points.
 
   calotte points random 100000 -o points.txt
@@ -375,6 +383,7 @@ const std::vector<Guide>& guides() {
        formats_guide, "formats.md coasts.md"},
       {"mpas-tools jigsawpy compass polaris", jigsaw, "jigsaw.md"},
       {"finer refined nested coarser change local zoom", local, "changes.md"},
+      {"rotation rotated grid_rotate move turn relocate", rotation, "rotation.md"},
       {"voronoi triangulation scvt lloyd algorithm paper stripack centroidal triangle", algorithms,
        "algorithms.md"},
       {"config toml namelist yaml configuration option settings", options, "first-grid.md"},

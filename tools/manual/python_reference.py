@@ -17,7 +17,7 @@ GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "gates", "operator_errors",
                                   "neighbours", "locate", "interpolate", "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
-    ("Grids", ["cvt", "plan", "refine", "coarsen", "limited_area", "density"]),
+    ("Grids", ["cvt", "plan", "refine", "coarsen", "rotate", "limited_area", "density"]),
     ("Points", ["random_points", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",
                 "bisected_icosahedron", "lat_lon_sphere", "cubed_sphere", "hexagonal_lattice",
                 "bisect", "from_lonlat", "to_lonlat"]),

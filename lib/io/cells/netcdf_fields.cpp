@@ -124,19 +124,6 @@ bool fit_int(const DoubleVector& values) {
   });
 }
 
-/// Whether a name or an attribute says that a variable at edges is a component along them.
-bool is_directed(const NetcdfReader& file, const std::string& name) {
-  constexpr std::array<std::string_view, 3> velocities{"u", "v", "ru"}; // of MPAS-Atmosphere
-  if (std::find(velocities.begin(), velocities.end(), name) != velocities.end())
-    return true;
-  std::string words =
-      name + " " + file.text(name, "long_name") + " " + file.text(name, "standard_name");
-  std::transform(words.begin(), words.end(), words.begin(), [](char c) {
-    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return words.find("normal") != std::string::npos || words.find("tangent") != std::string::npos;
-}
-
 /// Reads the values of a field, see cf_values(), and its attributes. The field has a value for each
 /// index of its other dimensions, in the order of the file, at each cell, edge or vertex.
 /// \param of_location indices of the dimensions of its location among those of the variable, the
@@ -165,7 +152,9 @@ void read_values(const NetcdfReader& file, const std::vector<std::size_t>& of_lo
   field.attributes = read_own_attributes(file, field.name);
   for (FieldDimension& dimension : field.dimensions)
     dimension.unlimited = file.is_unlimited(dimension.name);
-  field.directed = field.location == FieldLocation::edges && is_directed(file, field.name);
+  field.directed =
+      field.location == FieldLocation::edges &&
+      is_along_edges(field.name, field.long_name, file.text(field.name, "standard_name"));
 }
 
 /// The indices of dimensions among those of a variable; none unless it has each once.
@@ -216,6 +205,18 @@ void add_new(const std::vector<FieldDimension>& some, std::vector<FieldDimension
 }
 
 } // namespace
+
+bool is_along_edges(const std::string& name, const std::string& long_name,
+                    const std::string& standard_name) {
+  constexpr std::array<std::string_view, 3> velocities{"u", "v", "ru"}; // of MPAS-Atmosphere
+  if (std::find(velocities.begin(), velocities.end(), name) != velocities.end())
+    return true;
+  std::string words = name + " " + long_name + " " + standard_name;
+  std::transform(words.begin(), words.end(), words.begin(), [](char c) {
+    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return words.find("normal") != std::string::npos || words.find("tangent") != std::string::npos;
+}
 
 void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
                     const std::set<std::string>& no_fields, FieldChoice choice,

@@ -23,6 +23,11 @@ struct NetcdfMeshNames {
   std::set<std::string> derived = {}; ///< computed by writers; they may be read as fields
 };
 
+/// Whether a name or an attribute says that a variable at edges is a component along their normals
+/// or tangents.
+bool is_along_edges(const std::string& name, const std::string& long_name,
+                    const std::string& standard_name);
+
 /// Reads the numeric variables at cells, edges or vertices into the fields of the raw mesh. Lists
 /// all other variables that do not describe the mesh as ignored. A variable on another dimension of
 /// the mesh, such as the edges of a cell, is not a field, because its order may differ in another

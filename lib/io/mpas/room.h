@@ -3,7 +3,8 @@
 
 #include "io/room.h"
 
-/// MPAS: the variables of its files, and how they are written, read, cut, culled and renumbered.
+/// MPAS: the variables of its files, and how they are written, read, cut, culled, rotated and
+/// renumbered.
 ///
 /// In: a mesh or a tessellation, or an MPAS file. Out: the other of the two.
 namespace calotte::io_detail {}

@@ -247,14 +247,25 @@ private:
 
   // ---- Fields
 
+  FieldTraits traits_of(int variable) const {
+    const std::string& name = header(variable).name;
+    const std::string long_name = file_.text(name, "long_name"),
+                      standard_name = file_.text(name, "standard_name");
+    return {name,
+            long_name,
+            standard_name,
+            file_.dimensions_of(name),
+            is_real(variable),
+            find_axis(name).second == &mpas_edge && is_along_edges(name, long_name, standard_name)};
+  }
+
   /// The variables at cells, edges and vertices.
   std::vector<FieldTraits> field_traits() const {
     std::vector<FieldTraits> all;
     for (int v = 0; v < std::ssize(file_.variables()); ++v) {
       const std::string& name = header(v).name;
       if (find_axis(name).second != nullptr && file_.is_numeric(name))
-        all.push_back({name, file_.text(name, "long_name"), file_.text(name, "standard_name"),
-                       file_.dimensions_of(name), is_real(v)});
+        all.push_back(traits_of(v));
     }
     return all;
   }

@@ -59,7 +59,8 @@ FieldTraits traits_of(const MeshField& field) {
                      field.long_name,
                      text_of(field, "standard_name"),
                      {locations[static_cast<int>(field.location)]},
-                     !field.integer};
+                     !field.integer,
+                     field.directed};
   for (const FieldDimension& dimension : field.dimensions)
     traits.dimensions.push_back(dimension.name);
   return traits;

@@ -74,6 +74,9 @@ public:
   std::vector<FieldTurn> find() {
     take_table();
     for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (is_free(i) && fields_[i].along_edges)
+        turns_[i].kind = Kind::along_edges;
+    for (std::size_t i = 0; i < fields_.size(); ++i)
       if (is_free(i))
         take_cartesian(i);
     for (const Text text : texts)
@@ -181,6 +184,7 @@ std::vector<FieldTurn> find_turns(const std::vector<FieldTraits>& fields) {
 
 void add_name(const std::string& name, const FieldTurn& turn, TurnedFields& fields) {
   switch (turn.kind) {
+  case Kind::along_edges:
   case Kind::vectors:
   case Kind::components:
   case Kind::east_north:

@@ -21,20 +21,22 @@ struct FieldTraits {
   /// The names of its dimensions, the last one the fastest, with that of the cells, edges or
   /// vertices. Components of one vector have the same.
   std::vector<std::string> dimensions;
-  bool real = true; ///< it has floats or doubles
+  bool real = true;         ///< it has floats or doubles
+  bool along_edges = false; ///< components along normals or tangents of edges
 };
 
 /// How a field turns.
 struct FieldTurn {
   enum class Kind {
     none,
-    vectors,    ///< three Cartesian components in the last dimension
-    components, ///< one of three fields of Cartesian components
-    east_north, ///< one of two fields of zonal and meridional components
-    twice,      ///< the same of a direction that turns by twice the angle
-    coriolis,   ///< a function of the latitude, if its values are
-    unknown,    ///< a direction that cannot turn
-    of_mesh     ///< a variable of the mesh, which is no field
+    along_edges, ///< components that turn with the edges, whose values stay
+    vectors,     ///< three Cartesian components in the last dimension
+    components,  ///< one of three fields of Cartesian components
+    east_north,  ///< one of two fields of zonal and meridional components
+    twice,       ///< the same of a direction that turns by twice the angle
+    coriolis,    ///< a function of the latitude, if its values are
+    unknown,     ///< a direction that cannot turn
+    of_mesh      ///< a variable of the mesh, which is no field
   };
   Kind kind = Kind::none;
   std::vector<std::size_t> parts = {}; ///< the fields that are components, in their order

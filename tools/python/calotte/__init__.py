@@ -26,7 +26,7 @@ from ._functions import (Action, ChangedMesh, ChangedPatch, ClosedSea, Cvt, Gate
                          limited_area, locate, neighbours, operator_errors, partition,
                          periodic_box, plan, planar_polygon, plane, polygon,
                          quality, random_points, raster, read, read_fields, read_points,
-                         read_weights, rectangle, refine, spiral_sphere, threads, to_lonlat,
+                         read_weights, rectangle, refine, rotate, spiral_sphere, threads, to_lonlat,
                          voronoi, write)
 
 __all__ = [
@@ -40,7 +40,7 @@ __all__ = [
     "locate", "neighbours", "operator_errors", "partition", "periodic_box", "plan", "planar_polygon",
     "plane", "polygon", "quality",
     "random_points", "raster", "read", "read_fields", "read_points", "read_weights", "rectangle",
-    "refine", "spiral_sphere", "threads", "to_lonlat", "voronoi", "widths", "write",
+    "refine", "rotate", "spiral_sphere", "threads", "to_lonlat", "voronoi", "widths", "write",
 ]
 
 _border.check_all(__all__, globals())

@@ -8,9 +8,11 @@
 
 #include <calotte/mesh_file.h>
 #include <calotte/refine.h>
+#include <calotte/rotate.h>
 
 #include <pybind11/stl.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -89,6 +91,18 @@ auto runner(Change* change) {
   };
 }
 
+/// Rotates a mesh or polygons, and what their file holds.
+/// \param content of the file that the grid is of, or None.
+/// \returns the grid, its content or None, and the names of fields that could not turn.
+py::tuple rotate_grid(const py::object& grid, const py::object& content,
+                      const Eigen::Vector2d& from, const Eigen::Vector2d& to, double bearing) {
+  const MeshFile file = file_of_cells(content, grid);
+  RotatedFile out = call([&] { return rotated(file, Rotation(from, to, bearing)); });
+  const py::tuple parts = parts_of(std::move(out.file));
+  return py::make_tuple(parts[0], content.is_none() ? py::object(py::none()) : parts[1],
+                        out.fields.unturned);
+}
+
 } // namespace
 
 void add_changes(py::module_& module) {
@@ -119,6 +133,11 @@ void add_changes(py::module_& module) {
       .def_readwrite("conservative", &FieldMethods::conservative);
   module.def("refine", runner(&refine));
   module.def("coarsen", runner(&coarsen));
+  module.def("rotate", [](const py::object& grid, const py::object& content,
+                          const std::array<double, 2>& from, const std::array<double, 2>& to,
+                          double bearing) {
+    return rotate_grid(grid, content, {from[0], from[1]}, {to[0], to[1]}, bearing);
+  });
 }
 
 } // namespace calotte::python
