@@ -60,7 +60,7 @@ TEST_CASE("other formats keep the order of the sites, and MPAS files are written
 TEST_CASE("meshes of cocircular sites, of coasts and of parts rotate") {
   const Bench bench;
   const std::string rotation = " --from 3,4 --to -105,40 --bearing 17 -o ";
-  check_success(bench, "points bisected-icosahedron 5 -o points.txt");
+  check_success(bench, "points icosahedron 10242 -o points.txt");
   check_success(bench, "delaunay points.txt -o lattice.nc");
   check_success(bench, "rotate lattice.nc" + rotation + "there.nc");
   check_success(bench, "check there.nc");
