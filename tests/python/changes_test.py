@@ -259,8 +259,8 @@ def test_rotations(file, tmp_path):
     there = calotte.rotate(base, from_=(10, 20), to=(-105, 40), bearing=30)
     assert (there.triangles == base.triangles).all() and bool(calotte.check(there))
     assert (there.fields["height"] == base.fields["height"]).all()
-    boulder = calotte.from_lonlat([(-105, 40)])[0]
-    moved = calotte.rotate(calotte.delaunay(calotte.from_lonlat([(10, 20), (0, 90), (90, 0), (-130, -30)])),
+    boulder = calotte.from_lonlat(-105, 40)
+    moved = calotte.rotate(calotte.delaunay(calotte.from_lonlat([10, 0, 90, -130], [20, 90, 0, -30])),
                            from_=(10, 20), to=(-105, 40))
     assert abs(moved.points[0] - boulder).max() < 1e-15
     back = calotte.rotate(there, from_=(-105, 40), to=(10, 20), bearing=-30)
