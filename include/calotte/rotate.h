@@ -28,7 +28,7 @@ struct TurnedFields {
   /// All other fields: they have the values of where they were.
   std::vector<std::string> moved;
   /// Directions of which a component is missing, tensors, and parameters of Coriolis that are other
-  /// functions: they have the values of where they were, which are wrong there.
+  /// functions, and not constant: they have the values of where they were, which are wrong there.
   std::vector<std::string> unturned;
 };
 

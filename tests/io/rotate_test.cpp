@@ -270,6 +270,35 @@ void check_fields(const Contents& before, const Contents& file) {
   CHECK(coriolis <= 1e-14);
 }
 
+/// A variable of doubles.
+struct Doubles {
+  std::string name;
+  Names dimensions;
+  std::vector<double> values;
+};
+
+/// Adds variables to a file, and the dimension R3.
+void add_doubles(const std::string& path, const std::vector<Doubles>& variables) {
+  const Patch patch(path);
+  int d = -1;
+  require(nc_redef(patch.id()));
+  require(nc_def_dim(patch.id(), "R3", 3, &d));
+  std::vector<int> ids;
+  for (const Doubles& variable : variables) {
+    std::vector<int> dimensions;
+    for (const std::string& name : variable.dimensions) {
+      require(nc_inq_dimid(patch.id(), name.c_str(), &d));
+      dimensions.push_back(d);
+    }
+    ids.emplace_back();
+    require(nc_def_var(patch.id(), variable.name.c_str(), NC_DOUBLE,
+                       static_cast<int>(dimensions.size()), dimensions.data(), &ids.back()));
+  }
+  require(nc_enddef(patch.id()));
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    require(nc_put_var_double(patch.id(), ids[k], variables[k].values.data()));
+}
+
 } // namespace
 
 TEST_CASE("an MPAS file rotates with the directions that it holds, and the rest keeps its bits") {
@@ -324,6 +353,65 @@ TEST_CASE("the contents of a file rotate as an MPAS file does") {
             doctest::Approx(1).epsilon(1e-12));
 }
 
+TEST_CASE("what MPAS-Atmosphere's initialisation stores of directions turns") {
+  const Scratch scratch;
+  write_global(scratch, scratch / "old.nc", {.cells = 300});
+  const Contents file = contents_of(scratch / "old.nc");
+  const std::size_t cells = file.dimensions.at("nCells"), width = file.dimensions.at("maxEdges");
+  // Directions at each cell, by the weights of deformation (Skamarock et al. 2012) and gradients.
+  std::vector<double> cosines, sines, twice_cosines, twice_sines, vectors, constant(cells, 1e-4);
+  for (std::size_t i = 0; i < cells; ++i)
+    for (std::size_t k = 0; k < width; ++k) {
+      const double angle = 0.7 * static_cast<double>(i) + static_cast<double>(k);
+      cosines.push_back(3 * std::cos(angle));
+      sines.push_back(3 * std::sin(angle));
+      twice_cosines.push_back(2 * std::cos(2 * angle));
+      twice_sines.push_back(2 * std::sin(2 * angle));
+      const Vector at = point(file, "Cell", i),
+                   way = std::cos(angle) * east_at(at) + std::sin(angle) * north_at(at);
+      vectors.insert(vectors.end(), way.begin(), way.end());
+    }
+  const Names by_edge{"nCells", "maxEdges"};
+  add_doubles(scratch / "old.nc", {{"cell_gradient_coef_x", by_edge, cosines},
+                                   {"cell_gradient_coef_y", by_edge, sines},
+                                   {"defc_a", by_edge, twice_cosines},
+                                   {"defc_b", by_edge, twice_sines},
+                                   {"deriv_two", by_edge, twice_sines},
+                                   {"coeffs_reconstruct", {"nCells", "maxEdges", "R3"}, vectors},
+                                   {"strainRateR3Cell", {"nCells", "maxEdges", "R3"}, vectors},
+                                   {"fCell", {"nCells"}, constant}});
+  const TurnedFields fields = rotate(scratch / "old.nc", scratch / "new.nc", to_the_rockies).fields;
+  CHECK(fields.turned == Names{"u", "cell_gradient_coef_x", "cell_gradient_coef_y", "defc_a",
+                               "defc_b", "coeffs_reconstruct"});
+  CHECK(fields.unturned == Names{"strainRateR3Cell"});
+  CHECK(fields.coriolis.empty());
+  CHECK(std::ranges::count(fields.moved, "fCell") == 1);
+  CHECK(std::ranges::count(fields.moved, "deriv_two") == 0);
+  const Contents now = contents_of(scratch / "new.nc");
+  std::set<std::string> expected = of_place;
+  expected.insert(fields.turned.begin() + 1, fields.turned.end());
+  CHECK(changed(contents_of(scratch / "old.nc"), now) == expected);
+  double worst = 0;
+  const auto raise = [&](double is, double should) {
+    worst = std::max(worst, std::abs(is - should));
+  };
+  for (std::size_t i = 0; i < cells; ++i)
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::size_t at = i * width + k;
+      const Vector place = point(now, "Cell", i),
+                   way =
+                       matrix() * Vector(vectors[3 * at], vectors[3 * at + 1], vectors[3 * at + 2]);
+      const double east = way.dot(east_at(place)), north = way.dot(north_at(place));
+      raise(now.numbers.at("cell_gradient_coef_x")[at], 3 * east);
+      raise(now.numbers.at("cell_gradient_coef_y")[at], 3 * north);
+      raise(now.numbers.at("defc_a")[at], 2 * (east * east - north * north));
+      raise(now.numbers.at("defc_b")[at], 4 * east * north);
+      for (std::size_t x = 0; x < 3; ++x)
+        raise(now.numbers.at("coeffs_reconstruct")[3 * at + x], way[static_cast<Eigen::Index>(x)]);
+    }
+  CHECK(worst <= 1e-13);
+}
+
 TEST_CASE("the identity keeps all bits of a file, of any format and radius") {
   const Scratch scratch;
   for (const int format : {NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4}) {
@@ -350,7 +438,9 @@ TEST_CASE("limited areas and oceans rotate, with their masks and maps") {
     CAPTURE(name);
     const std::string old = scratch / (name + ".nc"), now = scratch / (name + "-there.nc");
     const RotateReport report = rotate(old, now, to_the_rockies);
-    CHECK(std::ranges::count(report.fields.moved, "bdyMaskCell") == 0);
+    CHECK(!report.fields.moved.empty());
+    for (const char* of_mesh : {"bdyMaskCell", "bdyMaskEdge", "mapCulledToBaseCell"})
+      CHECK(std::ranges::count(report.fields.moved, of_mesh) == 0);
     CHECK(changed(contents_of(old), contents_of(now)) == of_place);
     const MeshFile before = read_mesh_file(old), after = read_mesh_file(now);
     CHECK(after.not_voronoi.fault == before.not_voronoi.fault);

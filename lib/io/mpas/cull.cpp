@@ -164,7 +164,7 @@ Points3 middles(const MpasSource& source, const std::vector<SeaPart>& parts) {
 
 void add_maps(const MpasPart& part, NetcdfSubset& subset) {
   const auto add = [&](const MpasKind& kind, const Kept& kept) {
-    const std::string name = "mapCulledToBase" + kind.name;
+    const std::string name = kind.base_numbers();
     subset.left_out.push_back(name); // left by an earlier cull
     subset.added.push_back({name, kind.dimension(), "0-based id in the mesh before culling",
                             [&kept](std::int64_t i) { return kept.old[i]; }});

@@ -61,6 +61,8 @@ struct MpasKind {
   std::string latitude() const { return "lat" + name; }
   std::string longitude() const { return "lon" + name; }
   std::string numbers() const { return "indexTo" + name + "ID"; }
+  /// Numbers in the file that an ocean was culled from.
+  std::string base_numbers() const { return "mapCulledToBase" + name; }
 };
 inline const MpasKind mpas_cell{MpasDimension::cells, "Cell", "cell", "the cells' generators",
                                 "in the plane, or on the sphere of sphere_radius"};

@@ -337,12 +337,12 @@ private:
     std::vector<double> sines(static_cast<std::size_t>(n));
     for (std::int64_t i = 0; i < n; ++i)
       sines[static_cast<std::size_t>(i)] = sine_of_latitude(at.col(i));
-    const double factor = coriolis_factor(file_.doubles(name, {n}), sines);
-    if (factor == 0)
-      return fields.unturned.push_back(name);
-    fields.coriolis.push_back(name);
-    set_by_point(name, kind,
-                 [factor](const Eigen::Vector3d& to) { return factor * sine_of_latitude(to); });
+    const std::vector<double> values = file_.doubles(name, {n});
+    const double factor = coriolis_factor(values, sines);
+    add_coriolis(name, values, factor, fields);
+    if (factor != 0)
+      set_by_point(name, kind,
+                   [factor](const Eigen::Vector3d& to) { return factor * sine_of_latitude(to); });
   }
 
   const NetcdfReader& file_;

@@ -7,8 +7,12 @@
 
 #include <calotte/voronoi.h>
 
+#include <array>
+#include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace calotte {
 namespace io_detail {
@@ -102,16 +106,16 @@ void turn_components(const FieldTurn& turn, const Points3* points, const Rotatio
   }
 }
 
-/// \returns whether the values are those of the latitudes.
-bool set_coriolis(const Points3& points, const Rotation& rotation, DoubleVector& values) {
+void turn_coriolis(const Points3& points, const Rotation& rotation, MeshField& field,
+                   TurnedFields& report) {
   std::vector<double> sines;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     sines.push_back(sine_of_latitude(points.col(i)));
-  const double factor =
-      coriolis_factor({values.data(), static_cast<std::size_t>(values.size())}, sines);
+  const std::span<const double> values(field.values.data(), sines.size());
+  const double factor = coriolis_factor(values, sines);
+  add_coriolis(field.name, values, factor, report);
   for (Eigen::Index i = 0; factor != 0 && i < points.cols(); ++i)
-    values[i] = factor * sine_of_latitude(rotation(Eigen::Vector3d(points.col(i))));
-  return factor != 0;
+    field.values[i] = factor * sine_of_latitude(rotation(Eigen::Vector3d(points.col(i))));
 }
 
 TurnedFields turn_fields(const MeshFile& file, const Rotation& rotation,
@@ -133,8 +137,7 @@ TurnedFields turn_fields(const MeshFile& file, const Rotation& rotation,
       for (Eigen::Index k = 0; k + 2 < fields[i].values.size(); k += 3)
         fields[i].values.segment<3>(k) = turned(fields[i].values.segment<3>(k), rotation);
     else if (turn.kind == Kind::coriolis)
-      (set_coriolis(*at, rotation, fields[i].values) ? report.coriolis : report.unturned)
-          .push_back(fields[i].name);
+      turn_coriolis(*at, rotation, fields[i], report);
     else if (turn.kind != Kind::unknown && !turn.parts.empty() && turn.part == 0)
       turn_components(turn, at, rotation, file.fields, fields);
     add_name(fields[i].name, turn, report);

@@ -132,8 +132,10 @@ private:
         set_pair(row->turn == MpasTurn::east2 ? Kind::twice : Kind::east_north, *i,
                  std::next(row)->name);
     }
-    for (const char* mask : {cell_mask, edge_mask.name, vertex_mask.name})
-      if (const std::optional<std::size_t> i = index_of(mask))
+    for (const std::string& name :
+         {std::string(cell_mask), std::string(edge_mask.name), std::string(vertex_mask.name),
+          mpas_cell.base_numbers(), mpas_edge.base_numbers(), mpas_vertex.base_numbers()})
+      if (const std::optional<std::size_t> i = index_of(name))
         turns_[*i].kind = Kind::of_mesh;
   }
 
@@ -228,6 +230,12 @@ double coriolis_factor(std::span<const double> values, std::span<const double> s
     if (!(std::abs(values[i] - factor * sines[i]) <= 1e-6 * std::abs(factor)))
       return 0;
   return std::isfinite(factor) ? factor : 0;
+}
+
+void add_coriolis(const std::string& name, std::span<const double> values, double factor,
+                  TurnedFields& fields) {
+  const bool constant = std::ranges::all_of(values, [&](double f) { return f == values.front(); });
+  (factor != 0 ? fields.coriolis : constant ? fields.moved : fields.unturned).push_back(name);
 }
 
 } // namespace calotte::io_detail

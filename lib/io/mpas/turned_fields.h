@@ -73,4 +73,9 @@ double sine_of_latitude(const Eigen::Vector3d& point);
 /// none.
 double coriolis_factor(std::span<const double> values, std::span<const double> sines);
 
+/// Adds the name of a parameter of Coriolis. One that is the same everywhere needs no turn.
+/// \param factor its coriolis_factor().
+void add_coriolis(const std::string& name, std::span<const double> values, double factor,
+                  TurnedFields& fields);
+
 } // namespace calotte::io_detail
