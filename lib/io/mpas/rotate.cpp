@@ -69,7 +69,8 @@ struct RealVariable {
   double fill = std::numeric_limits<double>::quiet_NaN(), missing = fill;
 
   bool is_missing(double value) const {
-    return std::isnan(value) || value == fill || value == missing;
+    constexpr double unset = 1e30; // NetCDF fills what was not written with 9.97e36
+    return !(std::abs(value) < unset) || value == fill || value == missing;
   }
 };
 
