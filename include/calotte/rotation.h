@@ -36,7 +36,9 @@ public:
   /// 3 x n, each column rotated.
   Points3 operator()(const Points3& points) const;
 
+  /// The rotation back.
   Rotation inverse() const;
+  /// Whether all points keep their bits.
   bool is_identity() const;
   /// The matrix, rounded to doubles.
   const Eigen::Matrix3d& matrix() const { return high_; }

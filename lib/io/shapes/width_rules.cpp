@@ -168,7 +168,7 @@ private:
       each([most = table.number("most")](const Widths& rule) {
         return Widths::minimum({rule, most});
       });
-    if (table.has("within")) // where a raster must cover it, it was read before
+    if (table.take("within") != nullptr) // also if a raster has been read for it
       each([share = share_in(region(table, "within"))](const Widths& rule) {
         return Widths::where(share, rule, Widths::no_demand);
       });
