@@ -41,7 +41,8 @@ public:
   /// \param mesh a Delaunay triangulation, or a part of one. In a mesh that is none, the nearest
   ///        site may be another one; the triangle is exact. The locator and its copies refer to the
   ///        mesh, which must outlive them and stay as it is. They add 1 to 24 bytes a triangle, 1
-  ///        to 4 if the mesh is closed; more once a position is beside the boundary of an open one.
+  ///        to 4 if the mesh is closed; more once a position is beside the boundary of an open one,
+  ///        or several sites are asked for.
   /// \throws Error invalid_argument: a mesh without triangles; in a plane, with its index, a site
   ///         that is more than 2^30 periods from the box.
   explicit Locator(const Mesh& mesh);
@@ -58,6 +59,21 @@ public:
 
   /// The same as find(...).nearest, in less time. \throws Error as find().
   Ids nearest(const PointsRef& positions, const Ids& hints = {}) const;
+
+  /// The k nearest sites of each position, by distance; those that are equally near by id. Exact.
+  /// \param positions as for find().
+  /// \param k 1 or more; lists are shorter where there are fewer sites.
+  /// \returns for each position a list of sites.
+  /// \throws Error as find(); invalid_argument for another k.
+  IdLists nearest_few(const PointsRef& positions, std::int64_t k) const;
+
+  /// The sites within a distance of each position, ascending: of those whose distance is that up to
+  /// rounding, some.
+  /// \param positions as for find().
+  /// \param distance 0 or more: an angle, at most pi, or in a plane in its unit.
+  /// \returns for each position a list of sites, which may be empty.
+  /// \throws Error as find(); invalid_argument for another distance.
+  IdLists within(const PointsRef& positions, double distance) const;
 
 private:
   struct Prepared;

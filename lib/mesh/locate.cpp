@@ -19,6 +19,9 @@
 #include <cstddef>
 #include <limits>
 #include <mutex>
+#include <numbers>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -71,6 +74,34 @@ public:
       const Near near = nearest_from(from, p);
       out[i] = near.site;
       return near.triangle;
+    });
+    return out;
+  }
+
+  IdLists nearest_few(const PointsRef& positions, std::int64_t k) const {
+    k = std::min<std::int64_t>(k, mesh_.points.cols());
+    IdLists out{Offsets::LinSpaced(positions.cols() + 1, 0, k * positions.cols()),
+                Ids(k * positions.cols())};
+    for_each_position(positions, {}, [&](const Position& p, std::int32_t from, std::int64_t i) {
+      find_nearest(p, out[i]);
+      return from;
+    });
+    return out;
+  }
+
+  IdLists within(const PointsRef& positions, double distance) const {
+    IdLists out{Offsets::Zero(positions.cols() + 1), {}};
+    for_each_position(positions, {}, [&](const Position& p, std::int32_t from, std::int64_t i) {
+      for_each_within(p, distance, [&](std::int32_t) { ++out.begin[i + 1]; });
+      return from;
+    });
+    std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
+    out.items.resize(out.begin[positions.cols()]);
+    for_each_position(positions, {}, [&](const Position& p, std::int32_t from, std::int64_t i) {
+      auto* next = out[i].data();
+      for_each_within(p, distance, [&](std::int32_t site) { *next++ = site; });
+      std::ranges::sort(out[i]);
+      return from;
     });
     return out;
   }
@@ -313,6 +344,68 @@ private:
     return best;
   }
 
+  /// Calls body(site) for the sites whose boxes are nearer to p than a limit, which the body may
+  /// lower, roughly from the nearest on; in a box for those of copies, too.
+  template <class Body>
+  void for_each_near(const Position& p, const double& limit, const Body& body) const {
+    for (int k = 0; k < S::copies; ++k) {
+      const Vec3 at = seen_.coordinates(seen_.copy(p, k));
+      site_tree().visit_nearest([&](const Box3& box) { return square_from(box, at); }, limit, body);
+    }
+  }
+
+  /// The square of a distance that is larger than one of some square by more than rounding.
+  double beyond(const Position& p, double square) const {
+    const Vec3 at = seen_.coordinates(p);
+    const double size = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}),
+                 reach = std::sqrt(square) * (1 + 1e-9) + 1e-14 * size + 1e-300;
+    return reach * reach;
+  }
+
+  double square_of(const Position& p, std::int32_t site) const {
+    const Vec3 apart = seen_.seen(site, p) - seen_.seen(p);
+    return dot(apart, apart);
+  }
+
+  /// Fills a list with the sites nearest to p.
+  void find_nearest(const Position& p, std::span<std::int32_t> list) const {
+    std::size_t count = 0;
+    double limit = std::numeric_limits<double>::infinity();
+    const auto before = [&](std::int32_t a, std::int32_t b) {
+      const int order = seen_.compare(p, a, b);
+      return order < 0 || (order == 0 && a < b);
+    };
+    for_each_near(p, limit, [&](std::int32_t site) {
+      const auto end = list.begin() + static_cast<std::ptrdiff_t>(count);
+      if (count == list.size() && !before(site, list.back()))
+        return;
+      const auto at = std::upper_bound(list.begin(), end, site, before);
+      if (at != list.begin() && *(at - 1) == site) // a copy of it
+        return;
+      count = std::min(count + 1, list.size());
+      std::move_backward(at, list.begin() + static_cast<std::ptrdiff_t>(count) - 1,
+                         list.begin() + static_cast<std::ptrdiff_t>(count));
+      *at = site;
+      if (count == list.size())
+        limit = beyond(p, square_of(p, list.back()));
+    });
+  }
+
+  /// Calls body(site) once for each site within a distance of p.
+  template <class Body>
+  void for_each_within(const Position& p, double distance, const Body& body) const {
+    const double chord = S::on_sphere ? 2 * std::sin(distance / 2) : distance,
+                 square = chord * chord, limit = beyond(p, square);
+    std::vector<std::int32_t> found; // where a box has copies
+    for_each_near(p, limit, [&](std::int32_t site) {
+      if (square_of(p, site) > square || std::ranges::find(found, site) != found.end())
+        return;
+      if (S::copies > 1)
+        found.push_back(site);
+      body(site);
+    });
+  }
+
   void set_weights(std::int32_t t, const Position& p, std::int64_t i, Locations& out) const {
     if (t < 0) {
       out.weights.col(i).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -452,6 +545,21 @@ Locations Locator::find(const PointsRef& positions, const Ids& hints) const {
 
 Ids Locator::nearest(const PointsRef& positions, const Ids& hints) const {
   return std::visit([&](const auto& in) { return in.nearest(positions, hints); }, prepared_->in);
+}
+
+IdLists Locator::nearest_few(const PointsRef& positions, std::int64_t k) const {
+  mesh_detail::require(k >= 1, "k is {}; give 1 or more", k);
+  return std::visit([&](const auto& in) { return in.nearest_few(positions, k); }, prepared_->in);
+}
+
+IdLists Locator::within(const PointsRef& positions, double distance) const {
+  const bool sphere =
+      std::holds_alternative<mesh_detail::LocatorIn<exact_detail::Sphere>>(prepared_->in);
+  mesh_detail::require(distance >= 0 && std::isfinite(distance),
+                       "the distance is {}; give 0 or more", distance);
+  mesh_detail::require(!sphere || distance <= std::numbers::pi,
+                       "the distance is {}; give an angle of at most pi", distance);
+  return std::visit([&](const auto& in) { return in.within(positions, distance); }, prepared_->in);
 }
 
 Locations locate(const Mesh& mesh, const PointsRef& positions) {

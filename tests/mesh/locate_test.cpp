@@ -22,6 +22,9 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
+#include <numeric>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -34,72 +37,79 @@ using exact_detail::Vec2;
 
 namespace {
 
-/// Every triangle and every site, by exact signs.
-struct Found {
-  std::int32_t triangle = -1, nearest = -1;
-};
-
-Found by_all(const Mesh& mesh, const Eigen::Vector3d& position) {
+/// The lowest of all triangles, by exact signs.
+std::int32_t triangle_on_sphere(const Mesh& mesh, const Eigen::Vector3d& position) {
   const Points3 p = position;
   const auto at = [&](std::int32_t site) { return column(mesh.points, site); };
-  Found out;
-  for (std::int32_t t = 0; out.triangle < 0 && t < mesh.triangles.cols(); ++t) {
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t) {
     const auto x = mesh.triangles.col(t);
     if (exact_detail::orientation(at(x[0]), at(x[1]), column(p, 0)) >= 0 &&
         exact_detail::orientation(at(x[1]), at(x[2]), column(p, 0)) >= 0 &&
         exact_detail::orientation(at(x[2]), at(x[0]), column(p, 0)) >= 0)
-      out.triangle = t;
+      return t;
   }
-  for (std::int32_t site = 0; site < mesh.points.cols(); ++site)
-    if (out.nearest < 0 ||
-        exact_detail::compare_distances(column(p, 0), at(site), at(out.nearest)) < 0 ||
-        (site < out.nearest &&
-         exact_detail::compare_distances(column(p, 0), at(site), at(out.nearest)) == 0))
-      out.nearest = site;
-  return out;
+  return -1;
 }
 
-/// In a periodic box over the copies of positions around it.
-Found by_all_in_plane(const Mesh& mesh, const Eigen::Vector2d& p) {
-  const Vec2 period{mesh.surface.period().x(), mesh.surface.period().y()};
-  const auto image = [&](std::int32_t site, int i, int j) {
-    return Image{{mesh.points(0, site), mesh.points(1, site)}, i, j};
+Vec2 period_of(const Mesh& mesh) { return {mesh.surface.period().x(), mesh.surface.period().y()}; }
+
+Image image(const Mesh& mesh, std::int32_t site, int i, int j) {
+  return {{mesh.points(0, site), mesh.points(1, site)}, i, j};
+}
+
+/// The copy of a site that is nearest to another point; triangles are smaller than half a box.
+Image near(const Mesh& mesh, std::int32_t site, const Image& to) {
+  const Vec2 period = period_of(mesh);
+  const auto shift = [](double x, double other, double length) {
+    return length > 0 ? static_cast<int>(std::lround((other - x) / length)) : 0;
   };
-  // The copy of a site that is nearest to another point; triangles are smaller than half a box.
-  const auto near = [&](std::int32_t site, const Image& to) {
-    const auto shift = [](double x, double other, double length) {
-      return length > 0 ? static_cast<int>(std::lround((other - x) / length)) : 0;
-    };
-    return image(site, shift(mesh.points(0, site), to.site.x + to.i * period.x, period.x),
-                 shift(mesh.points(1, site), to.site.y + to.j * period.y, period.y));
-  };
+  return image(mesh, site, shift(mesh.points(0, site), to.site.x + to.i * period.x, period.x),
+               shift(mesh.points(1, site), to.site.y + to.j * period.y, period.y));
+}
+
+/// The copy of a point that is inside a box.
+Image home_of(const Mesh& mesh, const Eigen::Vector2d& p) {
   const auto inside = [](double x, double length) {
     return length > 0 ? -static_cast<int>(std::floor(x / length)) : 0;
   };
-  const Image home{{p.x(), p.y()}, inside(p.x(), period.x), inside(p.y(), period.y)};
-  Found out;
-  for (std::int32_t t = 0; out.triangle < 0 && t < mesh.triangles.cols(); ++t)
+  const Vec2 period = period_of(mesh);
+  return {{p.x(), p.y()}, inside(p.x(), period.x), inside(p.y(), period.y)};
+}
+
+/// All sites, by distance and then by id.
+std::vector<std::int32_t> by_distance(const Mesh& mesh, const Eigen::Vector3d& position) {
+  std::vector<std::int32_t> sites(static_cast<std::size_t>(mesh.points.cols()));
+  std::iota(sites.begin(), sites.end(), 0);
+  const Points3 p = position;
+  const Image home = home_of(mesh, position.head<2>());
+  std::stable_sort(sites.begin(), sites.end(), [&](std::int32_t a, std::int32_t b) {
+    return mesh.surface.is_sphere()
+               ? exact_detail::compare_distances(column(p, 0), column(mesh.points, a),
+                                                 column(mesh.points, b)) < 0
+               : exact_detail::compare_distances(period_of(mesh), home, near(mesh, a, home),
+                                                 near(mesh, b, home)) < 0;
+  });
+  return sites;
+}
+
+/// In a periodic box over the copies of positions around it.
+std::int32_t triangle_in_plane(const Mesh& mesh, const Eigen::Vector2d& p) {
+  const Vec2 period = period_of(mesh);
+  const Image home = home_of(mesh, p);
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j) {
         if ((i != 0 && period.x == 0) || (j != 0 && period.y == 0))
           continue;
-        const Image at{home.site, home.i + i, home.j + j}, a = image(mesh.triangles(0, t), 0, 0),
-                                                           b = near(mesh.triangles(1, t), a),
-                                                           c = near(mesh.triangles(2, t), a);
+        const Image at{home.site, home.i + i, home.j + j},
+            a = image(mesh, mesh.triangles(0, t), 0, 0), b = near(mesh, mesh.triangles(1, t), a),
+            c = near(mesh, mesh.triangles(2, t), a);
         if (exact_detail::orientation(period, a, b, at) >= 0 &&
             exact_detail::orientation(period, b, c, at) >= 0 &&
             exact_detail::orientation(period, c, a, at) >= 0)
-          out.triangle = t;
+          return t;
       }
-  for (std::int32_t site = 0; site < mesh.points.cols(); ++site) {
-    const int order = out.nearest < 0
-                          ? -1
-                          : exact_detail::compare_distances(period, home, near(site, home),
-                                                            near(out.nearest, home));
-    if (order < 0 || (order == 0 && site < out.nearest))
-      out.nearest = site;
-  }
-  return out;
+  return -1;
 }
 
 /// The law: what an exhaustive search finds, and weights that give the position back.
@@ -108,13 +118,33 @@ void check_located(const Mesh& mesh, const PointsRef& at) {
   REQUIRE(found.triangle.size() == at.cols());
   REQUIRE(found.nearest.size() == at.cols());
   CHECK(Locator(mesh).nearest(at) == found.nearest);
+  const Locator locator(mesh);
+  const bool sphere = mesh.surface.is_sphere();
+  const auto unit = [&](const Eigen::Vector3d& x) { return sphere ? x.normalized() : x; };
+  const double distance = sphere ? 0.4 : 1.3;
+  const IdLists few = locator.nearest_few(at, 9), all = locator.nearest_few(at, 1000),
+                within = locator.within(at, distance);
   for (Eigen::Index i = 0; i < at.cols(); ++i) {
     CAPTURE(i);
-    const Found wanted = mesh.surface.is_sphere() ? by_all(mesh, at.col(i))
-                                                  : by_all_in_plane(mesh, at.col(i).head<2>());
-    CHECK(found.triangle[i] == wanted.triangle);
-    CHECK(found.nearest[i] == wanted.nearest);
-    if (wanted.triangle < 0) {
+    Eigen::Vector3d p(at(0, i), at(1, i), 0);
+    if (at.rows() == 3)
+      p = at.col(i);
+    const std::vector<std::int32_t> sites = by_distance(mesh, p);
+    CHECK(std::ranges::equal(all[i], sites));
+    CHECK(
+        std::ranges::equal(few[i], std::span(sites).first(std::min(sites.size(), std::size_t{9}))));
+    CHECK(std::ranges::is_sorted(within[i]));
+    for (const std::int32_t site : sites)
+      if (const bool is_in = std::ranges::binary_search(within[i], site); sphere) {
+        const double apart = (unit(mesh.points.col(site)) - unit(p)).norm() / 2;
+        if (std::abs(apart - std::sin(distance / 2)) > 1e-14)
+          CHECK(is_in == (apart < std::sin(distance / 2)));
+      }
+    const std::int32_t triangle =
+        sphere ? triangle_on_sphere(mesh, p) : triangle_in_plane(mesh, p.head<2>());
+    CHECK(found.triangle[i] == triangle);
+    CHECK(found.nearest[i] == sites.front());
+    if (triangle < 0) {
       CHECK(found.weights.col(i).array().isNaN().all());
       continue;
     }
@@ -344,7 +374,7 @@ TEST_CASE("few positions in a large mesh, one by one, and a copy of a locator") 
     const Locations found = locator->find(at.col(i));
     CHECK(found.triangle[0] == wanted.triangle[i]);
     CHECK(found.weights.col(0) == wanted.weights.col(i));
-    CHECK(copy.nearest(at.col(i))[0] == by_all(mesh, at.col(i)).nearest);
+    CHECK(copy.nearest(at.col(i))[0] == by_distance(mesh, at.col(i)).front());
   }
 }
 
@@ -389,6 +419,22 @@ TEST_CASE("bad hints of a locator are one clear line with the index") {
   const Mesh none;
   CHECK_THROWS_WITH_AS(Locator{none}, "the mesh has no triangles; give one that has", Error);
   static_assert(!std::is_constructible_v<Locator, Mesh&&>);
+}
+
+TEST_CASE("numbers of sites and distances that cannot be are refused") {
+  const Mesh mesh = delaunay(random_sphere(8)),
+             plane = delaunay(Points2(Points2::Random(2, 9)), Surface::plane());
+  const Points3 at = random_sphere(5);
+  const Locator locator(mesh), in_plane(plane);
+  CHECK_THROWS_WITH_AS(locator.nearest_few(at, 0), "k is 0; give 1 or more", Error);
+  CHECK_THROWS_WITH_AS(locator.within(at, -1), "the distance is -1; give 0 or more", Error);
+  CHECK_THROWS_WITH_AS(locator.within(at, 4), "the distance is 4; give an angle of at most pi",
+                       Error);
+  CHECK(in_plane.within(Points2(Points2::Zero(2, 1)), 4).items.size() == 9);
+  CHECK(locator.within(at, std::numbers::pi).items.size() == 40);
+  CHECK(locator.within(mesh.points, 0).size() == 8);
+  CHECK(locator.nearest_few(Points3(3, 0), 4).size() == 0);
+  CHECK(locator.within(Points3(3, 0), 1).size() == 0);
 }
 
 TEST_CASE("bad input of locate is one clear line with the index") {
