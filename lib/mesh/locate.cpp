@@ -119,7 +119,7 @@ private:
     require_hints(hints, count, mesh_.triangles.cols());
     const bool hinted = hints.size() > 0, few = !hinted && count < grid_.cells();
     const auto position = [&](std::int64_t i) { return seen_.position(point(positions, i)); };
-    Array<std::uint64_t> keys(hinted ? 0 : count);
+    Array<std::uint64_t> keys(count);
     for_each_block(keys.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i != end; ++i)
         keys[i] = grid_.key_of(seen_.coordinates(position(i)));
@@ -128,7 +128,7 @@ private:
     for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       std::int32_t t = 0;
       for (std::int64_t k = begin; k != end; ++k) {
-        const std::int64_t i = hinted ? k : order.items[k];
+        const std::int64_t i = order.items[k];
         const Position p = position(i);
         if (hinted && hints[i] >= 0)
           t = hints[i];
@@ -367,28 +367,37 @@ private:
     return dot(apart, apart);
   }
 
+  /// A site, and the square of its distance up to rounding.
+  struct Candidate {
+    double square;
+    std::int32_t site;
+  };
+
   /// Fills a list with the sites nearest to p.
   void find_nearest(const Position& p, std::span<std::int32_t> list) const {
-    std::size_t count = 0;
     double limit = std::numeric_limits<double>::infinity();
-    const auto before = [&](std::int32_t a, std::int32_t b) {
-      const int order = seen_.compare(p, a, b);
-      return order < 0 || (order == 0 && a < b);
+    const auto before = [&](const Candidate& a, const Candidate& b) {
+      if (a.square > beyond(p, b.square) || b.square > beyond(p, a.square))
+        return a.square < b.square;
+      const int order = seen_.compare(p, a.site, b.site);
+      return order < 0 || (order == 0 && a.site < b.site);
     };
+    std::vector<Candidate> found;
+    found.reserve(list.size() + 1);
     for_each_near(p, limit, [&](std::int32_t site) {
-      const auto end = list.begin() + static_cast<std::ptrdiff_t>(count);
-      if (count == list.size() && !before(site, list.back()))
+      const Candidate candidate{square_of(p, site), site};
+      if (candidate.square > limit)
         return;
-      const auto at = std::upper_bound(list.begin(), end, site, before);
-      if (at != list.begin() && *(at - 1) == site) // a copy of it
+      const auto at = std::upper_bound(found.begin(), found.end(), candidate, before);
+      if (at != found.begin() && (at - 1)->site == site) // a copy of it
         return;
-      count = std::min(count + 1, list.size());
-      std::move_backward(at, list.begin() + static_cast<std::ptrdiff_t>(count) - 1,
-                         list.begin() + static_cast<std::ptrdiff_t>(count));
-      *at = site;
-      if (count == list.size())
-        limit = beyond(p, square_of(p, list.back()));
+      found.insert(at, candidate);
+      if (found.size() > list.size())
+        found.pop_back();
+      if (found.size() == list.size())
+        limit = beyond(p, found.back().square);
     });
+    std::ranges::transform(found, list.begin(), &Candidate::site);
   }
 
   /// Calls body(site) once for each site within a distance of p.

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Positions in meshes, and values there."""
+import pickle
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,32 @@ def test_on_the_sphere():
     assert natural.shape == (2000, 3) and np.abs(natural - positions).max() < 0.05
     assert np.allclose(calotte.interpolate(mesh, values, mesh.points, method="natural"), values)
     assert repr(found) == "<calotte.Locations: 2000 positions>"
+
+
+def test_a_locator_of_a_mesh():
+    mesh = calotte.delaunay(calotte.random_points(500))
+    positions = calotte.random_points(2000, seed=2)
+    locator = pickle.loads(pickle.dumps(calotte.Locator(mesh)))
+    assert repr(locator) == "<calotte.Locator: in 500 sites>" and len(locator.mesh) == 500
+    found, hinted = locator.find(positions), locator.find(positions, hints=np.zeros(2000))
+    assert (found.triangle == calotte.locate(mesh, positions).triangle).all()
+    assert (hinted.triangle == found.triangle).all()
+    assert (locator.nearest(positions, hints=found.triangle) == found.nearest).all()
+    distances = np.arccos(np.clip(positions @ mesh.points.T, -1, 1))
+    few = locator.nearest(positions.astype(np.float32), 8)
+    assert few.shape == (2000, 8) and few.dtype == np.int32
+    assert (few == np.argsort(distances, axis=1)[:, :8]).mean() > 0.9999  # float32 is another place
+    assert (locator.nearest(positions, 8) == np.argsort(distances, axis=1)[:, :8]).all()
+    near = locator.within(calotte.to_lonlat(positions), 0.2)
+    assert len(near) == 2000 and (np.diff(near.begin) == (distances <= 0.2).sum(axis=1)).all()
+    assert (near[7] == np.flatnonzero(distances[7] <= 0.2)).all()
+    for call, words in [(lambda: locator.nearest(positions, 501), "k is 501, and the mesh has 500 sites"),
+                        (lambda: locator.nearest(positions, 0), "k is 0; give 1 or more"),
+                        (lambda: locator.within(positions, -1), "the distance is -1"),
+                        (lambda: locator.find(positions, hints=[5]), "there are 1 hints for 2000 positions"),
+                        (lambda: calotte.Locator(calotte.raster(8, 4)), "give a Mesh")]:
+        with pytest.raises(calotte.Error, match=words):
+            call()
 
 
 def test_outside_of_an_open_mesh():

@@ -26,7 +26,7 @@ GROUPS = [
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
 WIDTHS = ["by_latitude", "by_distance", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
-KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "GeneralisedSea", "ClosedSea", "Quality",
+KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Locator", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "GeneralisedSea", "ClosedSea", "Quality",
          "Unit", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Gate", "Density", "CellWidth", "Widths", "Error"]
 
 
@@ -101,7 +101,7 @@ def methods(kind):
 
 
 def kind_lines(name):
-    kind = getattr(_calotte, name, None) or getattr(calotte, name)
+    kind = getattr(calotte, name, None) or getattr(_calotte, name)
     about = documented(kind.__doc__)
     if dataclasses.is_dataclass(kind):
         about = about.split("\n\n")[0]

@@ -293,6 +293,59 @@ def locate(mesh: Mesh, positions: ArrayLike) -> Locations:
     return _calotte.locate(mesh, _positions(mesh, positions))
 
 
+_NO_HINTS = np.empty(0, np.int32)
+
+
+class Locator:
+    """A mesh, prepared for many searches, which threads may make at the same time. It may be pickled.
+
+    mesh: as for locate().
+
+    >>> locator = Locator(delaunay(fibonacci_sphere(1000)))
+    >>> before = locator.find([(-105.0, 40.0), (0.0, 90.0)])
+    >>> after = locator.find([(-104.9, 40.1), (10.0, 89.8)], hints=before.triangle)
+    >>> locator.nearest([(-105.0, 40.0), (0.0, 90.0)], 3).shape
+    (2, 3)
+    >>> len(locator.within([(-105.0, 40.0)], math.radians(5))[0])
+    2
+    """
+
+    def __init__(self, mesh: Mesh) -> None:
+        _require_triangles(mesh)
+        self._mesh, self._prepared = mesh, _calotte.Locator(mesh)
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh in which it searches."""
+        return self._mesh
+
+    def find(self, positions: ArrayLike, hints: ArrayLike | None = None) -> Locations:
+        """The same as locate(). hints: k triangles near the positions, such as those where particles
+        were before; -1 for none. They save time alone."""
+        return self._prepared.find(_positions(self._mesh, positions), _NO_HINTS if hints is None else hints)
+
+    def nearest(self, positions: ArrayLike, k: int | None = None, hints: ArrayLike | None = None) -> Array:
+        """The nearest site of each position, the lowest of those that are equally near. With k an array
+        (n, k) of the k nearest sites, by distance and then by id. hints: as for find(), without k."""
+        places = _positions(self._mesh, positions)
+        if k is None:
+            return self._prepared.nearest(places, _NO_HINTS if hints is None else hints)
+        if k > len(self._mesh):
+            raise Error(f"k is {k}, and the mesh has {len(self._mesh)} sites; give at most as many")
+        return self._prepared.nearest_few(places, k).ids.reshape(len(places), k)
+
+    def within(self, positions: ArrayLike, distance: float) -> IdLists:
+        """The sites within a distance of each position, ascending. distance: radians, at most pi; in a
+        plane in its unit."""
+        return self._prepared.within(_positions(self._mesh, positions), distance)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Locator, (self._mesh,)
+
+    def __repr__(self) -> str:
+        return f"<calotte.Locator: in {len(self._mesh)} sites>"
+
+
 # ---- From one grid to another
 
 def raster(longitudes: ArrayLike, latitudes: ArrayLike | None = None) -> Raster:

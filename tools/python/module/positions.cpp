@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "arrays.h"
 #include "calls.h"
 #include "members.h"
 #include "module.h"
 
 #include <calotte/locate.h>
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -15,6 +17,11 @@ std::shared_ptr<Locations> locate_in(const Mesh& mesh, const Doubles& positions)
   const auto places = columns(positions);
   return call([&] { return std::make_shared<Locations>(locate(mesh, places)); });
 }
+
+using IdsIn = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+/// Numbers of Python, or none.
+Ids ids_of(const IdsIn& given) { return Eigen::Map<const Ids>(given.data(), given.size()); }
 
 } // namespace
 
@@ -32,6 +39,30 @@ void add_positions(py::module_& module) {
              "(k,) the nearest site, the lowest of those that are equally near."});
   type.def("__len__", [](const Locations& locations) { return locations.triangle.size(); });
   module.def("locate", &locate_in);
+  py::class_<Locator>(module, "Locator")
+      .def(py::init([](const Mesh& mesh) { return call([&] { return Locator(mesh); }); }),
+           py::keep_alive<1, 2>())
+      .def("find",
+           [](const Locator& locator, const Doubles& positions, const IdsIn& hints) {
+             const auto places = columns(positions);
+             const Ids near = ids_of(hints);
+             return call([&] { return std::make_shared<Locations>(locator.find(places, near)); });
+           })
+      .def("nearest",
+           [](const Locator& locator, const Doubles& positions, const IdsIn& hints) {
+             const auto places = columns(positions);
+             const Ids near = ids_of(hints);
+             return handed_over(call([&] { return locator.nearest(places, near); }));
+           })
+      .def("nearest_few",
+           [](const Locator& locator, const Doubles& positions, std::int64_t k) {
+             const auto places = columns(positions);
+             return call([&] { return locator.nearest_few(places, k); });
+           })
+      .def("within", [](const Locator& locator, const Doubles& positions, double distance) {
+        const auto places = columns(positions);
+        return call([&] { return locator.within(places, distance); });
+      });
 }
 
 } // namespace calotte::python
