@@ -50,7 +50,8 @@ struct RefineOptions {
   /// How an open mesh ends. By default sites at its boundary, those whose cells the rings of a
   /// plane clip, and those next to either stay. With Boundary::generators, for a mesh that ends at
   /// its sites, such as one of a run with it, finer cells reach the boundary: generators along the
-  /// outer edges, as those of boundary_points(), replace its sites. Of refine() alone.
+  /// outer edges, as those of boundary_points(), replace its sites, and the
+  /// result has a surface without rings. Of refine() alone.
   Boundary boundary = Boundary::clip;
   Decomposition decomposition = {}; ///< affects time and memory, not the result
   ProgressCallback progress = {};   ///< stage: descend

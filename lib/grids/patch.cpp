@@ -169,6 +169,21 @@ std::vector<std::vector<std::int32_t>> trace_rings(const Submesh& part) {
   return rings;
 }
 
+/// Frees all sites of short loops of the boundary of which some are free: a whole loop has three
+/// generators or more.
+void free_whole_islands(const Mesh& mesh, Marks& is_free) {
+  constexpr std::int64_t few = 8; // edges
+  const IdLists loops = boundary_loops(mesh);
+  for (std::int64_t loop = 0; loop < loops.size(); ++loop) {
+    const auto sites = loops[loop];
+    if (loops.count(loop) <= few && std::ranges::any_of(sites, [&](std::int32_t site) {
+          return is_free[static_cast<std::size_t>(site)] != 0;
+        }))
+      for (const std::int32_t site : sites)
+        is_free[static_cast<std::size_t>(site)] = 1;
+  }
+}
+
 PatchRegion make_patch(const Mesh& mesh, const Marks& is_free,
                        std::vector<std::int32_t>&& component) {
   PatchRegion patch{extract(mesh.triangles, mesh.neighbours, std::move(component))};
@@ -333,6 +348,7 @@ std::vector<PatchRegion> find_patches(const Mesh& mesh, const IdLists& neighbour
       if (wanted.stays[i] != 0)
         is_free[i] = 0;
   }
+  free_whole_islands(mesh, is_free);
   Marks triangles = mark_stars(mesh, grown(neighbours, is_free, rows_that_stay));
   separate(mesh, triangles);
   Marks left = triangles;

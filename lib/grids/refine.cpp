@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -127,14 +126,13 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
 }
 
 /// Refuses new sites outside the surface: where a patch touches itself across a narrow gap in the
-/// surface, they may lie in the gap. Those on the mesh's boundary may, where the surface is
-/// concave.
+/// surface, they may lie in the gap.
 void require_inside(const Mesh& mesh, const std::vector<PatchRegion>& patches,
-                    const std::vector<Replacement>& replacements, const NewSites& sites) {
+                    const NewSites& sites) {
   if (!mesh.surface.is_bounded())
     return;
   for (std::size_t p = 0; p < patches.size(); ++p)
-    for (const std::int32_t site : std::span(sites.added[p]).subspan(replacements[p].on_boundary))
+    for (const std::int32_t site : sites.added[p])
       if (!mesh.surface.contains(sites.points.col(site)))
         throw Error(ErrorCode::invalid_argument,
                     base_detail::message("the patch around site {} would reach across the boundary "
@@ -227,7 +225,7 @@ template <Space S>
 ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchRegion>& patches,
                       std::vector<Replacement>&& replacements) {
   NewSites sites = new_sites(mesh, space, patches, replacements);
-  require_inside(mesh, patches, replacements, sites);
+  require_inside(mesh, patches, sites);
   ChangedMesh out;
   out.mesh.surface = mesh.surface;
   out.mesh.triangles = new_triangles(mesh, patches, replacements, sites);
@@ -414,28 +412,31 @@ Marks new_sites(const ChangedMesh& changed) {
 }
 
 /// Refuses a mesh that does not end at generators, see RefineOptions::boundary.
-void require_end_at_generators(const Mesh& mesh, const DoubleVector& own) {
-  constexpr double near = 0.05; // widths
+void require_end_at_generators(const Mesh& mesh) {
+  constexpr double near = 0.1; // of an outer edge
   require(!mesh.closed(), "the mesh has no boundary; leave the boundary out");
   if (!mesh.surface.is_bounded())
     return;
+  const IdLists loops = boundary_loops(mesh);
   in_space_of(mesh.surface, [&]<Space S>(const S& space) {
     const auto& outline = *domain_detail::outline_of<S>(mesh.surface);
-    for (const std::int32_t site : boundary_loops(mesh).items) {
-      const Vec3 x = measured_point(space, column(mesh.points, site));
-      const double reach = near * own[site];
-      bool found = false;
-      domain_detail::for_each_edge_near<S>(outline, x, reach, [&](const domain_detail::Arc& edge) {
-        found = found || norm(domain_detail::nearest_point<S>(edge, x) - x) <= reach;
-      });
-      if (!found)
-        throw Error(ErrorCode::invalid_argument,
-                    base_detail::message("site {} at the end of the mesh is not on the boundary of "
-                                         "its surface; give a mesh that ends at generators, or "
-                                         "leave the boundary out",
-                                         site),
-                    site);
-    }
+    for (std::int64_t loop = 0; loop < loops.size(); ++loop)
+      for (std::size_t k = 0; k < loops[loop].size(); ++k) {
+        const std::int32_t site = loops[loop][k], next = loops[loop][(k + 1) % loops[loop].size()];
+        const Vec3 x = measured_point(space, column(mesh.points, site));
+        const double reach =
+            near * norm(space.offset(x, measured_point(space, column(mesh.points, next))));
+        bool found = false;
+        domain_detail::for_each_edge_near<S>(
+            outline, x, reach, [&](const domain_detail::Arc& edge) {
+              found = found || norm(domain_detail::nearest_point<S>(edge, x) - x) <= reach;
+            });
+        if (!found)
+          base_detail::refuse_at(site,
+                                 "site {} at the end of the mesh is not on the boundary of its "
+                                 "surface; give a mesh that ends at generators, or leave the "
+                                 "boundary out");
+      }
   });
 }
 
@@ -443,12 +444,7 @@ void require_end_at_generators(const Mesh& mesh, const DoubleVector& own) {
 /// of a step sample the demand of the next.
 ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
                     const RefineOptions& options) {
-  require_demand(mesh, wanted, way, options);
   const Given given(mesh, options.boundary);
-  if (options.boundary == Boundary::generators) {
-    require(way == Way::finer, "cells at the boundary do not become coarser; leave it out");
-    require_end_at_generators(mesh, given.own);
-  }
   const Demand demand(wanted, way, mesh, given.own);
   if (way == Way::coarser) {
     const DoubleVector demanded = demand.at(mesh.points);
@@ -484,6 +480,26 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
   return out;
 }
 
+/// The mesh, which ends at its outer edges: its surface has no rings.
+Mesh without_rings(Mesh mesh) {
+  const Eigen::Vector2d period = mesh.surface.period();
+  mesh.surface = mesh.surface.is_sphere() ? Surface::sphere()
+                 : period.isZero(0)       ? Surface::plane()
+                                          : Surface::periodic(period);
+  return mesh;
+}
+
+ChangedMesh changed_to_its_end(const Mesh& mesh, const WidthDemand& wanted, Way way,
+                               const RefineOptions& options) {
+  require_demand(mesh, wanted, way, options);
+  if (options.boundary != Boundary::generators)
+    return changed(mesh, wanted, way, options);
+  require(way == Way::finer, "cells at the boundary do not become coarser; leave it out");
+  require_end_at_generators(mesh);
+  return mesh.surface.is_bounded() ? changed(without_rings(mesh), wanted, way, options)
+                                   : changed(mesh, wanted, way, options);
+}
+
 } // namespace
 } // namespace grids_detail
 
@@ -495,11 +511,11 @@ double radius_of_widths(std::optional<double> planet_km, double sphere_radius, d
 }
 
 ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options) {
-  return grids_detail::changed(mesh, demand, grids_detail::Way::finer, options);
+  return grids_detail::changed_to_its_end(mesh, demand, grids_detail::Way::finer, options);
 }
 
 ChangedMesh coarsen(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options) {
-  return grids_detail::changed(mesh, demand, grids_detail::Way::coarser, options);
+  return grids_detail::changed_to_its_end(mesh, demand, grids_detail::Way::coarser, options);
 }
 
 } // namespace calotte

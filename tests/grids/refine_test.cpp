@@ -11,6 +11,8 @@
 #include <calotte/mesh.h>
 #include <calotte/quality.h>
 #include <calotte/refine.h>
+#include <calotte/rotation.h>
+#include <calotte/voronoi.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -657,8 +659,14 @@ TEST_CASE("finer cells reach the shore of a mesh that ends at generators [slow]"
   tbb::task_arena arena(1);
   const ChangedMesh alone = arena.execute([&] { return refine(base, demand, shore); });
   CHECK(alone.mesh.points == refine(base, demand, shore).mesh.points);
-  // In memory a mesh knows its coast, beside whose arcs new generators may lie.
-  CHECK(refine(wavy_sea(), demand, shore).mesh.triangles == alone.mesh.triangles);
+  // In memory a mesh knows its coast, beside whose arcs new generators may lie: the result does
+  // not.
+  const ChangedMesh known = refine(wavy_sea(), demand, shore);
+  CHECK(known.mesh.triangles == alone.mesh.triangles);
+  CHECK(!known.mesh.surface.is_bounded());
+  const ChangedMesh again = refine(known.mesh, in_circle(cape, 0.05, 2), shore);
+  expect_changed(known.mesh, again);
+  CHECK(from_boundary(again.mesh, known.mesh) < 1e-12);
 }
 
 TEST_CASE("finer cells reach the sides and corners of a plane [slow]") {
@@ -698,4 +706,44 @@ TEST_CASE("in a strait without inner sites cells become finer, too") {
   CHECK(from_boundary(finer.mesh, base) < 1e-12);
   CHECK(std::abs(area_of(finer.mesh) / area_of(base) - 1) < 1e-12);
   CHECK(finer.mesh.points.cols() > 85); // with a third row
+}
+
+TEST_CASE("small islands at the rim of a patch keep three generators [slow]") {
+  // Islands as wide as a cell, a patch ends at some of which.
+  std::vector<DoubleMatrix> rings;
+  Points2 outer(2, 4);
+  outer << 0, 24, 24, 0, 0, 0, 16, 16;
+  rings.emplace_back(outer);
+  for (double x = 3.1; x < 22; x += 4)
+    for (double y = 3.2; y < 14; y += 4) {
+      Points2 island(2, 6);
+      for (int k = 0; k < 6; ++k)
+        island.col(k) << x + 0.5 * std::cos(-k * std::numbers::pi / 3),
+            y + 0.5 * std::sin(-k * std::numbers::pi / 3);
+      rings.emplace_back(island);
+    }
+  Recipe recipe;
+  recipe.surface = Surface::plane().within(rings);
+  recipe.boundary = Boundary::generators;
+  recipe.cells = 450;
+  const Mesh base = make_grid(recipe).mesh;
+  const auto loops = boundary_loops(base).size();
+  REQUIRE(loops == std::ssize(rings));
+  for (double x = 1; x < 9; x += 1.3) {
+    WidthDemand demand;
+    demand.region = square(x, 7, 5);
+    demand.factor = 1.6;
+    const ChangedMesh finer =
+        refine(base, demand, {.gradient = 0.5, .boundary = Boundary::generators});
+    expect_changed(base, finer);
+    CHECK(boundary_loops(finer.mesh).size() == loops);
+    CHECK(check_surface(finer.mesh).failure == "");
+    CHECK(from_boundary(finer.mesh, base) < 0.05); // each step ends at chords of the one before
+  }
+}
+
+TEST_CASE("a mesh that ends at generators is one after a rotation [slow]") {
+  const Mesh moved = rotated(wavy_sea(), Rotation({40, 5}, {-100, 77}, 30));
+  CHECK(voronoi(moved).cell_area.sum() == doctest::Approx(moved.surface.area()));
+  CHECK(check_surface(moved).failure == "");
 }
