@@ -165,7 +165,7 @@ void run(const RotateRequest& request) {
                      request.to);
     if (failure.empty()) {
       words += ", the mesh passes its check";
-    } else if (!failure_of(file, {}).empty()) {
+    } else if (failure_of(file, {}) == failure) {
       words += message("; as before, {}", failure);
       failure.clear();
     }

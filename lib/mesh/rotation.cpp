@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace calotte {
 namespace {
@@ -123,6 +126,37 @@ bool Rotation::is_identity() const {
   return high_ == Eigen::Matrix3d::Identity() && low_ == Eigen::Matrix3d::Zero();
 }
 
+namespace {
+
+/// Moves sites that rounding has put outside of the surface inside, towards a triangle of theirs:
+/// those on its boundary.
+void keep_inside(Mesh& mesh) {
+  std::vector<std::uint8_t> outside(static_cast<std::size_t>(mesh.points.cols()));
+  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      outside[static_cast<std::size_t>(i)] = mesh.surface.contains(mesh.points.col(i)) ? 0 : 1;
+  });
+  for (const auto& triangle : mesh.triangles.colwise())
+    for (const std::int32_t site : triangle) {
+      if (std::exchange(outside[static_cast<std::size_t>(site)], std::uint8_t{0}) == 0)
+        continue;
+      const Eigen::Vector3d x = mesh.points.col(site);
+      const Eigen::Vector3d way = (mesh.points.col(triangle(0)) + mesh.points.col(triangle(1)) +
+                                   mesh.points.col(triangle(2))) /
+                                      3 -
+                                  x;
+      for (double share = 0x1p-52; share < 0x1p-36; share *= 2) {
+        const Eigen::Vector3d inside = x + share * way;
+        if (!mesh.surface.contains(inside))
+          continue;
+        mesh.points.col(site) = inside;
+        break;
+      }
+    }
+}
+
+} // namespace
+
 Mesh rotated(Mesh mesh, const Rotation& rotation) {
   require(
       mesh.surface.is_sphere(),
@@ -136,6 +170,7 @@ Mesh rotated(Mesh mesh, const Rotation& rotation) {
     for (DoubleMatrix& ring : rings)
       ring = rotation(Points3(ring));
     mesh.surface = Surface::sphere().within(std::move(rings));
+    keep_inside(mesh);
   }
   return mesh;
 }

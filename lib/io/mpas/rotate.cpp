@@ -235,9 +235,12 @@ private:
     const double lower =
         std::ranges::any_of(all, [](double angle) { return angle < 0; }) ? -std::numbers::pi : 0;
     add_change(name, mpas_edge,
-               [this, lower](std::int64_t begin, std::int64_t end, double* values) {
+               [this, lower, of = real(name, mpas_edge)](std::int64_t begin, std::int64_t end,
+                                                         double* values) {
                  for_each_turn(mpas_edge, begin, end, [&](std::int64_t i, const SiteTurn& turn) {
                    constexpr double whole = 2 * std::numbers::pi;
+                   if (of.is_missing(values[i]))
+                     return;
                    const double angle = values[i] + turn.angle();
                    values[i] = angle < lower            ? angle + whole
                                : angle >= lower + whole ? angle - whole
@@ -252,10 +255,12 @@ private:
     const std::string& name = header(variable).name;
     const std::string long_name = file_.text(name, "long_name"),
                       standard_name = file_.text(name, "standard_name");
+    const std::vector<std::string> dimensions = file_.dimensions_of(name);
     return {name,
             long_name,
             standard_name,
-            file_.dimensions_of(name),
+            dimensions,
+            dimensions.empty() ? 0 : file_.dimension(dimensions.back()),
             is_real(variable),
             find_axis(name).second == &mpas_edge && is_along_edges(name, long_name, standard_name)};
   }
@@ -283,10 +288,11 @@ private:
     const std::string& name = all[i].name;
     const MpasKind& kind = *find_axis(name).second;
     if (turn.kind == Kind::vectors) {
-      const std::int64_t width = real(name, kind).width;
-      add_change(name, kind, [this, width](std::int64_t begin, std::int64_t end, double* values) {
-        for (double* at = values; at < values + (end - begin) * width; at += 3)
-          Eigen::Map<Eigen::Vector3d>{at} = turned({at[0], at[1], at[2]}, rotation_);
+      const RealVariable of = real(name, kind);
+      add_change(name, kind, [this, of](std::int64_t begin, std::int64_t end, double* values) {
+        for (double* at = values; at < values + (end - begin) * of.width; at += 3)
+          if (!of.is_missing(at[0]) && !of.is_missing(at[1]) && !of.is_missing(at[2]))
+            Eigen::Map<Eigen::Vector3d>{at} = turned({at[0], at[1], at[2]}, rotation_);
       });
     } else if (!turn.parts.empty()) {
       std::vector<RealVariable> parts;

@@ -63,6 +63,7 @@ FieldTraits traits_of(const MeshField& field) {
                      field.long_name,
                      text_of(field, "standard_name"),
                      {locations[static_cast<int>(field.location)]},
+                     field.dimensions.empty() ? 0 : field.dimensions.back().size,
                      !field.integer,
                      field.directed};
   for (const FieldDimension& dimension : field.dimensions)

@@ -74,15 +74,15 @@ public:
   std::vector<FieldTurn> find() {
     take_table();
     for (std::size_t i = 0; i < fields_.size(); ++i)
-      if (is_free(i) && fields_[i].along_edges)
-        turns_[i].kind = Kind::along_edges;
-    for (std::size_t i = 0; i < fields_.size(); ++i)
       if (is_free(i))
         take_cartesian(i);
     for (const Text text : texts)
       for (std::size_t i = 0; i < fields_.size(); ++i)
         if (is_free(i))
           take_pair(i, text);
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (is_free(i) && fields_[i].along_edges)
+        turns_[i].kind = Kind::along_edges;
     for (std::size_t i = 0; i < fields_.size(); ++i)
       if (is_free(i) && fields_[i].real && (names_direction(fields_[i]) || is_tensor(fields_[i])))
         turns_[i].kind = Kind::unknown;
@@ -152,16 +152,30 @@ private:
 
   void take_pair(std::size_t i, Text text) {
     const std::string north = northward(fields_[i].*text);
+    std::vector<std::size_t> found, rivals;
     for (std::size_t j = 0; j < fields_.size() && !north.empty(); ++j)
-      if (is_free(j) && fields_[j].*text == north && are_alike(fields_[i], fields_[j]))
-        return set(Kind::east_north, {i, j});
+      if (is_free(j) && are_alike(fields_[i], fields_[j])) {
+        if (fields_[j].*text == north)
+          found.push_back(j);
+        else if (j != i && fields_[j].*text == fields_[i].*text)
+          rivals.push_back(j);
+      }
+    if (found.size() == 1 && rivals.empty())
+      set(Kind::east_north, {i, found.front()});
+    else if (!found.empty()) // which belong together is not known
+      for (const std::vector<std::size_t>& all : {std::vector{i}, found, rivals})
+        for (const std::size_t j : all)
+          turns_[j].kind = Kind::unknown;
   }
 
   static bool is_vector(const FieldTraits& field) {
+    return names_vector(field) && field.last_length == 3;
+  }
+  static bool names_vector(const FieldTraits& field) {
     return !field.dimensions.empty() && field.dimensions.back() == "R3";
   }
   /// Whether a field has components that the table does not know.
-  static bool is_tensor(const FieldTraits& field) { return is_vector(field); }
+  static bool is_tensor(const FieldTraits& field) { return names_vector(field); }
 
   const std::vector<FieldTraits>& fields_;
   std::vector<FieldTurn> turns_;

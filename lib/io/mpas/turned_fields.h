@@ -21,8 +21,9 @@ struct FieldTraits {
   /// The names of its dimensions, the last one the fastest, with that of the cells, edges or
   /// vertices. Components of one vector have the same.
   std::vector<std::string> dimensions;
-  bool real = true;         ///< it has floats or doubles
-  bool along_edges = false; ///< components along normals or tangents of edges
+  std::int64_t last_length = 0; ///< of the last dimension
+  bool real = true;             ///< it has floats or doubles
+  bool along_edges = false;     ///< components along normals or tangents of edges
 };
 
 /// How a field turns.
