@@ -179,8 +179,8 @@ struct RasterChoice {
   /// The sphere, a part of it, or a plane. A raster of a quantity must cover it, see
   /// require_covering(), but a plane without rings and periods. Default: the sphere.
   Surface surface = {};
-  /// The places on the sphere that it must cover instead, 3 x n directions. Default: none.
-  Points3 places = Points3(3, 0);
+  /// Points of the sphere that it must cover instead, 3 x n directions. Default: none.
+  Points3 points = Points3(3, 0);
 };
 
 /// Reads a raster from a NetCDF file: a variable of latitude and longitude, or of y and x of a

@@ -277,6 +277,8 @@ Points3 thrown_along_boundary(const State& state, const Mesh& coarse, const Outl
   }
   const std::vector<std::int64_t> thrown =
       darts.take(std::max<std::int64_t>(cells - std::ssize(kept), 0));
+  if (!state.slides() && std::ssize(kept) + std::ssize(thrown) < cells)
+    return points; // too few candidates, as in a strip as wide as a coarse cell
   Points3 out(3, std::ssize(kept) + std::ssize(thrown));
   out.leftCols(std::ssize(kept)) = points(Eigen::all, kept);
   out.rightCols(std::ssize(thrown)) = candidates.points(Eigen::all, thrown);

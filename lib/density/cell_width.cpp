@@ -281,8 +281,8 @@ std::string extent(const std::string& name, const DoubleVector& nodes) {
 }
 
 std::string leaves_out(const Raster& raster, const std::string& x, const std::string& y,
-                       const Eigen::Vector3d& place, const char* of) {
-  const auto [east, north] = base_detail::lonlat_of({place.x(), place.y(), place.z()});
+                       const Eigen::Vector3d& point, const char* of) {
+  const auto [east, north] = base_detail::lonlat_of({point.x(), point.y(), point.z()});
   return message("{}, {}, and leaves out the place {} {}{}; "
                  "give a raster in degrees that covers it",
                  extent(x, raster.x), extent(y, raster.y), east, north, of);
@@ -331,12 +331,12 @@ std::string uncovered(const Raster& raster, const Surface& surface, const std::s
                          : uncovered_sphere(raster, surface, x, y);
 }
 
-std::string uncovered(const Raster& raster, const Points3& places, const std::string& x,
+std::string uncovered(const Raster& raster, const Points3& points, const std::string& x,
                       const std::string& y) {
   const Cover cover = make_cover(raster);
-  for (const auto& place : places.colwise())
-    if (!cover.contains(place))
-      return leaves_out(raster, x, y, place, "");
+  for (const auto& point : points.colwise())
+    if (!cover.contains(point))
+      return leaves_out(raster, x, y, point, "");
   return {};
 }
 

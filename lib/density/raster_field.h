@@ -158,8 +158,8 @@ void require_radius(double radius_km);
 /// \param x, y names of the axes in the message.
 std::string uncovered(const Raster& raster, const Surface& surface, const std::string& x,
                       const std::string& y);
-/// The same for places on the sphere.
-std::string uncovered(const Raster& raster, const Points3& places, const std::string& x,
+/// The same for points of the sphere. \pre the raster is one of the sphere.
+std::string uncovered(const Raster& raster, const Points3& points, const std::string& x,
                       const std::string& y);
 
 /// A regular grid of the sphere, poles included, without values. Its step is the largest divisor of

@@ -156,7 +156,7 @@ TEST_CASE("a raster of a part of the sphere covers the places that are asked for
   write_raster(path, file);
   const auto read_at = [&](double longitude, double latitude) {
     return read_raster(path, {.quantity = RasterQuantity::height,
-                              .places = from_lonlat(Eigen::Vector2d(longitude, latitude))});
+                              .points = from_lonlat(Eigen::Vector2d(longitude, latitude))});
   };
   CHECK(read_at(-175, 41).values.minCoeff() == -70);
   for (const double longitude : {-150, 0, 160})

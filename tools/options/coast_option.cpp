@@ -57,7 +57,7 @@ DoubleVector depths_of(const DoubleVector& values) {
 /// Depths by a raster of heights, at the sites. \throws Error as set_coast().
 DoubleVector depths_of_raster(const std::string& path, const Points3& sites) {
   const DoubleVector heights =
-      evaluate(read_raster(path, {.quantity = RasterQuantity::height, .places = sites}), sites);
+      evaluate(read_raster(path, {.quantity = RasterQuantity::height, .points = sites}), sites);
   for (Eigen::Index i = 0; i < heights.size(); ++i)
     if (std::isnan(heights[i])) {
       const Eigen::Vector2d at = to_lonlat(sites.col(i));
@@ -139,6 +139,7 @@ void add_coast(CLI::App& command, CoastWords& words) {
       .add_option("--least-depth", words.least,
                   "Least depth of the bottom at the sites, metres: what is shallower becomes as "
                   "deep, also on land")
+      ->check(CLI::Range(0.0, 12000.0))
       ->capture_default_str()
       ->needs(bottom);
   command

@@ -113,13 +113,13 @@ Raster ordered(RasterOfFile stored, const std::string& name, const ValueLaw& law
 }
 
 Raster covering(RasterOfFile stored, const std::string& name, const ValueLaw& law,
-                const Surface& surface, const Points3& places) {
+                const Surface& surface, const Points3& points) {
   const std::string x_name = stored.x_name, y_name = stored.y_name;
   Raster raster = ordered(std::move(stored), name, law);
   // Only the caller may know the domain of a plane; it then checks again.
   const bool known = surface.is_sphere() || surface.is_bounded() || surface.is_box();
-  const std::string problem = places.cols() > 0
-                                  ? density_detail::uncovered(raster, places, x_name, y_name)
+  const std::string problem = points.cols() > 0
+                                  ? density_detail::uncovered(raster, points, x_name, y_name)
                               : known ? density_detail::uncovered(raster, surface, x_name, y_name)
                                       : "";
   if (!problem.empty())
@@ -348,6 +348,8 @@ Raster read_raster(const std::string& path, const RasterChoice& choice) {
   using namespace io_detail;
   const NetcdfReader file(path);
   const bool of_plane = !choice.surface.is_sphere();
+  base_detail::require(!of_plane || choice.points.cols() == 0,
+                       "the points that a raster covers are those of the sphere; leave them out");
   const RasterQuantity quantity = choice.quantity;
   const std::string variable =
       !choice.variable.empty() ? choice.variable : default_variable(file, quantity, of_plane);
@@ -356,7 +358,7 @@ Raster read_raster(const std::string& path, const RasterChoice& choice) {
   const ValueLaw law = make_law(quantity, of_plane);
   if (quantity == RasterQuantity::any)
     return ordered(std::move(stored), path, law);
-  Raster raster = covering(std::move(stored), path, law, choice.surface, choice.places);
+  Raster raster = covering(std::move(stored), path, law, choice.surface, choice.points);
   if (quantity == RasterQuantity::land_fraction || quantity == RasterQuantity::sea_fraction)
     raster.values = raster.values.cwiseMax(0).cwiseMin(1);
   return raster;

@@ -29,10 +29,10 @@ struct RasterOfFile {
 ///         a value violates the law.
 Raster ordered(RasterOfFile stored, const std::string& name, const density_detail::ValueLaw& law);
 
-/// The same for a raster that must cover a surface, or places on the sphere, if there are any.
+/// The same for a raster that must cover a surface, or points of the sphere, if there are any.
 /// \throws Error parse, also if it does not.
 Raster covering(RasterOfFile stored, const std::string& name, const density_detail::ValueLaw& law,
-                const Surface& surface, const Points3& places = Points3(3, 0));
+                const Surface& surface, const Points3& points = Points3(3, 0));
 
 /// The coordinates as Eigen's vector.
 inline DoubleVector to_vector(const std::vector<double>& values) {
