@@ -198,9 +198,9 @@ Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<
   return points;
 }
 
-/// The widths of cells of the zone along a boundary, where a bisection leaves too many points or too
-/// few: generators of the boundary are as dense at all levels, and a cell of a coarse level that a
-/// strait divides reaches into the seas on both sides, so that one of them lacks its points.
+/// The widths of cells of the zone along a boundary, where a bisection leaves too many points or
+/// too few: generators of the boundary are as dense at all levels, and a cell of a coarse level
+/// that a strait divides reaches into the seas on both sides, so that one of them lacks its points.
 constexpr double zone = 4, beside_zone = 5.5;
 
 /// Candidates in the zone: random points in triangles of a coarse mesh, in any order.

@@ -93,7 +93,8 @@ TEST_CASE("cells at the shore become finer where the mesh ends at generators") {
   const Bench bench;
   check_success(bench, "cvt --region circle=10,10,1200km --cell-width 150km --boundary generators "
                        "--depth 300 --open box=-2,5,2,15 -o base.gr3");
-  const std::string circle = "refine base.gr3 --region circle=0,10,500km --factor 2 --gradient 0.1 -o ";
+  const std::string circle =
+      "refine base.gr3 --region circle=0,10,500km --factor 2 --gradient 0.1 -o ";
   const Outcome held = bench.run(circle + "held.gr3");
   CHECK(held.code == 1);
   CHECK(has(held.err, "if the mesh ends at generators, give --boundary generators"));

@@ -13,9 +13,9 @@ namespace calotte::tools {
 
 /// The words for the region of a run.
 struct RegionWords {
-  std::string region;            ///< a shape or a file, or none
-  std::string inside;            ///< LON,LAT of the region, or none
-  bool limited_area = false;     ///< adds the rings of boundary cells
+  std::string region;        ///< a shape or a file, or none
+  std::string inside;        ///< LON,LAT of the region, or none
+  bool limited_area = false; ///< adds the rings of boundary cells
   Boundary boundary = Boundary::clip;
 };
 
