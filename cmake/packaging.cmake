@@ -50,7 +50,7 @@ set(calotte_pc_further_libs "")
 if(calotte_type STREQUAL "STATIC_LIBRARY")
   string(APPEND calotte_pc_requires ", tbb, gmp")
   if(CALOTTE_BUILD_IO)
-    string(APPEND calotte_pc_requires ", netcdf, expat, zlib, tomlplusplus")
+    string(APPEND calotte_pc_requires ", netcdf, expat, zlib, shapelib, tomlplusplus")
     set(calotte_pc_further_libs " -lmetis") # METIS has no .pc file
     install(FILES cmake/FindMETIS.cmake DESTINATION ${calotte_package_dir} COMPONENT development)
   endif()

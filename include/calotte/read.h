@@ -65,6 +65,8 @@ PointLines read_point_lines(const std::string& path, Columns columns = Columns::
 /// collections, all of them one domain. Positions are taken as x and y, in any unit; a third
 /// coordinate is ignored.
 ///
+/// .shp: the polygons of a shapefile, with its index .shx beside it.
+///
 /// .msh: the closed rings of edges of JIGSAW's euclidean-mesh with NDIMS=2.
 ///
 /// Other suffixes: text with a corner x y on each line, in the order of the ring, in the syntax of
@@ -94,6 +96,9 @@ Surface read_domain(const std::string& path);
 /// them are one region. An outer ring encloses its polygon, and a hole what is left out of it, by
 /// the rule of enclosed_region() whichever way they run. If a feature names a point inside by the
 /// property "inside": [longitude, latitude], its rings enclose the side that contains the point.
+///
+/// .shp: the polygons of a shapefile, with its index .shx beside it, in longitude and latitude by its
+/// .prj.
 ///
 /// .pts: a point file of MPAS-Limited-Area, of the type custom, circle, ellipse or channel.
 /// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229

@@ -307,7 +307,7 @@ TEST_CASE("shapes: lines and the shores of polygons, of one file or of two") {
   const auto message = [&](const std::string& text) {
     return message_of([&] { read(text); }).substr(path.size() + 2);
   };
-  CHECK(message(collection({})) == "no lines or polygons; give geometries of these");
+  CHECK(message(collection({})) == "no points, lines or polygons; give geometries of these");
   CHECK(message(collection({polygon, R"({"type":"Polygon","coordinates":[[[5,5],[6,5]]]})"})) ==
         "feature 1: ring 0 has fewer than 3 places; leave it out");
 }

@@ -177,18 +177,15 @@ TEST_CASE("files that other programs convert are refused with the command") {
   using namespace calotte;
   const Scratch scratch;
   for (const auto& [suffix, command] :
-       {std::pair<std::string, std::string>{".shp",
-                                            "this is a shapefile, which Calotte does not read; "
-                                            "convert it with GDAL: ogr2ogr -t_srs EPSG:4326 "
-                                            "F.geojson F.shp"},
-        {".dbf", "this is a part of a shapefile, which Calotte does not read; convert it with "
-                 "GDAL: ogr2ogr -t_srs EPSG:4326 F.geojson F.shp"},
+       {std::pair<std::string, std::string>{".dbf", "this is a part of a shapefile; give F.shp"},
         {".zip", "this is an archive, which Calotte does not read; convert it with GDAL: ogr2ogr "
                  "-t_srs EPSG:4326 F.geojson /vsizip/F.zip"},
         {".GPKG", "this is a GeoPackage, which Calotte does not read; convert it with GDAL: "
                   "ogr2ogr -t_srs EPSG:4326 F.geojson F.GPKG"},
         {".kml", "this is KML, which Calotte does not read; convert it with GDAL: ogr2ogr "
                  "-t_srs EPSG:4326 F.geojson F.kml"},
+        {".tiff", "this is an image, which Calotte does not read; convert it with GDAL: "
+                  "gdalwarp -t_srs EPSG:4326 -of netCDF F.tiff F.nc"},
         {".tif", "this is an image, which Calotte does not read; convert it with GDAL: "
                  "gdalwarp -t_srs EPSG:4326 -of netCDF F.tif F.nc"},
         {".png", "this is an image, which Calotte does not read; convert it with GDAL: "

@@ -35,6 +35,7 @@ using calotte::ErrorCode;
 using calotte::io_detail::NetcdfReader;
 using calotte::io_detail::NetcdfType;
 using calotte::io_detail::NetcdfWriter;
+using calotte::test::code_of;
 using calotte::test::error_of;
 using calotte::test::has;
 using calotte::test::Scratch;

@@ -115,7 +115,7 @@ Images: gdalwarp -t_srs EPSG:4326 -of netCDF heights.tif heights.nc; GRIB: CDO o
 )";
 
 constexpr const char* polygons =
-    R"(Polygons and lines are GeoJSON in longitude and latitude; GDAL converts shapefiles and KML.
+    R"(Polygons and lines are GeoJSON or shapefiles in degrees; GDAL converts KML and projections.
 
   ogr2ogr -t_srs EPSG:4326 area.geojson area.shp
   calotte cvt --region area.geojson --cells 5000 -o area.vtp

@@ -129,6 +129,7 @@ parallels of a box have so many that it errs by less than a thousandth of a cell
 Files:
 
   .geojson, .json   Polygon and MultiPolygon geometries in longitude and latitude
+  .shp              the polygons of a shapefile, with .shx beside it
   .pts              point files of MPAS-Limited-Area: custom, circle, ellipse and channel
 
 An edge of a polygon is the shorter arc of a great circle between two corners. Give corners along a

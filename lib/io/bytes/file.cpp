@@ -254,6 +254,10 @@ std::ifstream open_input(const std::string& path) {
   return in;
 }
 
+std::ifstream open_geometries(const std::string& path) {
+  return is_shapefile(path) ? open_any(path) : open_input(path);
+}
+
 std::size_t bytes_left(std::istream& in) {
   const std::istream::pos_type here = in.tellg();
   in.seekg(0, std::ios::end);

@@ -131,8 +131,11 @@ void require_no_folder(const std::string& path);
 /// \throws Error file, always, with the meaning of an errno of opening a file.
 [[noreturn]] void refuse_input(const std::string& path, int error);
 
-/// \throws Error file.
+/// \throws Error file; parse, as refuse_foreign().
 std::ifstream open_input(const std::string& path);
+
+/// The same for readers of geometries, who take shapefiles, too.
+std::ifstream open_geometries(const std::string& path);
 
 /// The number of bytes from the current position to the end of a stream; 0 for a stream that cannot
 /// tell it, such as a pipe.

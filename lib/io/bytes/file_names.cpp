@@ -23,17 +23,33 @@ bool is_geojson(const std::string& path) {
   return suffix == ".geojson" || suffix == ".json";
 }
 
+bool is_shapefile(const std::string& path) { return suffix_of(path) == ".shp"; }
+
+bool has_geometries(const std::string& path) { return is_geojson(path) || is_shapefile(path); }
+
+namespace {
+
+std::string quoted(const std::string& name) {
+  return name.find(' ') == std::string::npos ? name : message("'{}'", name);
+}
+
+} // namespace
+
+std::string ogr2ogr(std::string_view options, const std::string& to, const std::string& from) {
+  return message("ogr2ogr {} {} {}", options, quoted(to), quoted(from));
+}
+
 void refuse_foreign(const std::string& path) {
-  enum class Contents { shapes, table_of_shapes, archive, raster };
+  enum class Contents { shapes, shapefile, part_of_shapefile, archive, raster };
   using enum Contents;
   struct Kind {
     std::string_view suffix, name;
     Contents contents;
   };
-  static constexpr std::array<Kind, 20> kinds{{{".shp", "a shapefile", shapes},
-                                               {".dbf", "a part of a shapefile", table_of_shapes},
-                                               {".shx", "a part of a shapefile", table_of_shapes},
-                                               {".prj", "a part of a shapefile", table_of_shapes},
+  static constexpr std::array<Kind, 20> kinds{{{".shp", "a shapefile", shapefile},
+                                               {".dbf", "a part of a shapefile", part_of_shapefile},
+                                               {".shx", "a part of a shapefile", part_of_shapefile},
+                                               {".prj", "a part of a shapefile", part_of_shapefile},
                                                {".zip", "an archive", archive},
                                                {".gpkg", "a GeoPackage", shapes},
                                                {".kml", "KML", shapes},
@@ -53,20 +69,17 @@ void refuse_foreign(const std::string& path) {
   const auto* const kind = std::ranges::find(kinds, suffix_of(path), &Kind::suffix);
   if (kind == kinds.end())
     return;
-  const auto quoted = [](const std::string& name) {
-    return name.find(' ') == std::string::npos ? name : message("'{}'", name);
-  };
   const std::string stem = std::filesystem::path(path).replace_extension();
-  const std::string source = kind->contents == table_of_shapes ? stem + ".shp"
-                             : kind->contents == archive       ? "/vsizip/" + path
-                                                               : path;
+  if (kind->contents == part_of_shapefile)
+    fail_file(path, "this is {}; give {}", kind->name, stem + ".shp");
+  const std::string source = kind->contents == archive ? "/vsizip/" + path : path;
   // Longitudes and latitudes: the file may have those of a projection.
   constexpr std::string_view degrees = "-t_srs EPSG:4326";
-  fail_file(
-      path, "this is {}, which Calotte does not read; convert it with GDAL: {}", kind->name,
-      kind->contents == raster
-          ? message("gdalwarp {} -of netCDF {} {}", degrees, quoted(source), quoted(stem + ".nc"))
-          : message("ogr2ogr {} {} {}", degrees, quoted(stem + ".geojson"), quoted(source)));
+  fail_file(path, "this is {}, which Calotte {}; convert it with GDAL: {}", kind->name,
+            kind->contents == shapefile ? "reads only as lines and polygons" : "does not read",
+            kind->contents == raster ? message("gdalwarp {} -of netCDF {} {}", degrees,
+                                               quoted(source), quoted(stem + ".nc"))
+                                     : ogr2ogr(degrees, stem + ".geojson", source));
 }
 
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,

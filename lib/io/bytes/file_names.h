@@ -27,8 +27,18 @@ std::string suffix_of(const std::string& path);
 /// Whether a name ends in .geojson or .json.
 bool is_geojson(const std::string& path);
 
+/// Whether a name ends in .shp.
+bool is_shapefile(const std::string& path);
+
+/// Whether a name is one of a file of geometries: GeoJSON or a shapefile.
+bool has_geometries(const std::string& path);
+
+/// The command of GDAL that converts a file of shapes to GeoJSON.
+std::string ogr2ogr(std::string_view options, const std::string& to, const std::string& from);
+
 /// Refuses a file that this library does not read but other programs convert: shapes, archives of
-/// them, images and GRIB, by the suffix.
+/// them, images and GRIB, by the suffix. Those who read geometries have passed on a shapefile
+/// before; see open_geometries().
 /// \throws Error parse, with the command that converts it.
 void refuse_foreign(const std::string& path);
 

@@ -24,17 +24,18 @@ Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
   const std::string suffix = suffix_of(path);
   if (suffix == ".nc")
     return read_raster(path, {.quantity = RasterQuantity::cell_width, .surface = surface});
-  refuse_foreign(path);
-  const bool polygonal = is_geojson(path);
+  const bool polygonal = has_geometries(path);
+  if (!polygonal)
+    refuse_foreign(path);
   if (suffix != ".msh" && !polygonal)
-    refuse_path(path, "unknown suffix of a file of cell widths; give .nc, .msh, .geojson or "
-                      ".toml");
+    refuse_path(path, "unknown suffix of a file of cell widths; give .nc, .msh, .geojson, "
+                      ".shp or .toml");
   if (polygonal && !surface.is_sphere())
     refuse_path(path, "no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc), "
                       "JIGSAW's spacings (.msh), or rules (.toml)");
   if (!polygonal)
     return make_width_raster(read_jigsaw(path), path, surface);
-  std::ifstream in = open_input(path);
+  std::ifstream in = open_geometries(path);
   return read_cell_width_geojson(in, path, polygons);
 }
 

@@ -55,12 +55,12 @@ Coast read_coast(const std::string& path) {
   if (is_netcdf_file(path)) {
     const NetcdfReader file(path);
     for (const char* const variable : {"N_bins_in_360_longitude_range", "Id_of_GSHHS_ID"})
-      file.require_variable(variable,
-                            "land is polygons of GeoJSON or a binned file of GSHHG such as "
-                            "binned_GSHHS_l.nc; give one, or give it as a raster");
+      file.require_variable(
+          variable, "land is polygons of GeoJSON or a shapefile, or a binned file of GSHHG such as "
+                    "binned_GSHHS_l.nc; give one, or give it as a raster");
     return read_gshhg(file);
   }
-  std::ifstream in = open_input(path);
+  std::ifstream in = open_geometries(path);
   Coast coast;
   for (const GeoArea& area : read_areas(in, path))
     add_land(area.rings, coast);

@@ -119,9 +119,9 @@ Surface read_jigsaw_domain(const std::string& path) {
 Surface read_domain(const std::string& path) {
   if (suffix_of(path) == ".msh")
     return read_jigsaw_domain(path);
-  std::ifstream in = open_input(path);
+  std::ifstream in = open_geometries(path);
   const FileRings rings =
-      is_geojson(path) ? read_geojson_rings(in, path) : read_text_rings(in, path);
+      has_geometries(path) ? read_geojson_rings(in, path) : read_text_rings(in, path);
   try {
     return make_domain(rings);
   } catch (const Error& error) {

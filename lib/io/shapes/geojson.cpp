@@ -3,7 +3,9 @@
 
 #include "base/message.h"
 #include "io/bytes/file_error.h"
+#include "io/bytes/file_names.h"
 #include "io/bytes/json_stream.h"
+#include "io/shapes/shapefile.h"
 
 #include <cmath>
 #include <istream>
@@ -91,7 +93,12 @@ Json read_features(std::istream& in, const std::string& name,
   return rest;
 }
 
-Json read_geometries(std::istream& in, const std::string& name, const GeometryVisit& visit) {
+Json read_geometries(std::istream& in, const std::string& name, const GeoPair& pair,
+                     const GeometryVisit& visit) {
+  if (is_shapefile(name)) {
+    read_shapefile(name, pair, visit);
+    return Json();
+  }
   return read_features(in, name, [&](const GeoFeature& feature) {
     if (!feature.geometry.is_null())
       visit_geometry(feature.geometry, 0, feature, name, visit);

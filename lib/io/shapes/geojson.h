@@ -11,7 +11,8 @@
 #include <iosfwd>
 #include <string>
 
-/// GeoJSON (Butler et al., RFC 7946, 2016): the parser that all its readers share.
+/// GeoJSON (Butler et al., RFC 7946, 2016): the parser that all its readers share. Shapefiles are
+/// read as if they were GeoJSON.
 namespace calotte::io_detail {
 
 using Json = nlohmann::json;
@@ -37,19 +38,21 @@ nlohmann::json read_features(std::istream& in, const std::string& name,
 using GeometryVisit = std::function<void(const GeoFeature& feature, const std::string& type,
                                          const nlohmann::json& coordinates)>;
 
-/// The same for the geometry of each feature, or for each geometry of its collection.
-/// \throws Error as read_features(); parse for a geometry without coordinates.
-nlohmann::json read_geometries(std::istream& in, const std::string& name,
-                               const GeometryVisit& visit);
-
 /// The meaning of a pair of coordinates, for messages.
 struct GeoPair {
   const char* form;
   const char* remedy;
+  bool degrees; ///< longitude and latitude
 };
 
-inline constexpr GeoPair lonlat_pair{"[longitude, latitude]", "give degrees"},
-    xy_pair{"[x, y]", "give two numbers"};
+inline constexpr GeoPair lonlat_pair{"[longitude, latitude]", "give degrees", true},
+    xy_pair{"[x, y]", "give two numbers", false};
+
+/// The same for the geometry of each feature, or for each geometry of its collection. A shapefile
+/// consists of several files, which are read by their names; see read_shapefile().
+/// \throws Error as read_features(); parse for a geometry without coordinates; read_shapefile().
+nlohmann::json read_geometries(std::istream& in, const std::string& name, const GeoPair& pair,
+                               const GeometryVisit& visit);
 
 /// The text of a member; "" without one.
 std::string text_in(const nlohmann::json& object, const char* key);

@@ -80,7 +80,8 @@ GeoGeometry read_geometry(const GeoFeature& feature, const std::string& type,
 GeoPolygons read_polygons(std::istream& in, const std::string& name, const GeoPair& pair) {
   GeoPolygons all;
   all.members = read_geometries(
-      in, name, [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
+      in, name, pair,
+      [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
         all.geometries.push_back(read_geometry(feature, type, coordinates, name, pair));
       });
   if (all.geometries.empty())

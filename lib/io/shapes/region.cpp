@@ -49,7 +49,8 @@ Surface read_geojson(std::istream& in, const std::string& name) {
 void require_format(const std::string& name) {
   refuse_foreign(name);
   if (!is_geojson(name) && suffix_of(name) != ".pts")
-    refuse_path(name, "the name determines no format of regions; name it .geojson, .json or .pts");
+    refuse_path(name, "the name determines no format of regions; name it .geojson, .json, .shp or "
+                      ".pts");
 }
 
 } // namespace
@@ -57,9 +58,10 @@ void require_format(const std::string& name) {
 namespace io_detail {
 
 Surface read_region_file(const std::string& path) {
-  require_format(path);
-  std::ifstream in = open_input(path);
-  return read_region(in, path);
+  if (!is_shapefile(path))
+    require_format(path);
+  std::ifstream in = open_geometries(path);
+  return is_shapefile(path) ? read_geojson(in, path) : read_region(in, path);
 }
 
 } // namespace io_detail

@@ -159,7 +159,7 @@ bool is_no_name(const std::string& word) {
                   ? message("{}: this is no shape; write {}, as in {}={}", word, form_of(*meant),
                             meant->name, meant->example)
                   : message("{}: there is no such shape, and no such file; give {}, or the file of "
-                            "a region (.geojson, .json or .pts)",
+                            "a region (.geojson, .json, .shp or .pts)",
                             word, listed(forms)));
 }
 

@@ -37,13 +37,13 @@ Points3 make_line(const Json& positions, const std::string& name, const std::str
   return points;
 }
 
-/// Reads the lines of a GeoJSON file: unit columns, or x y 0 in a plane. Calls `other` for each
-/// other geometry.
+/// Reads the lines of a file of geometries: unit columns, or x y 0 in a plane. Calls `other` for
+/// each other geometry.
 std::vector<Points3> read_geojson_lines(const std::string& path, bool plane,
                                         const GeometryVisit& other) {
-  std::ifstream in = open_input(path);
+  std::ifstream in = open_geometries(path);
   std::vector<Points3> lines;
-  read_geometries(in, path,
+  read_geometries(in, path, plane ? xy_pair : lonlat_pair,
                   [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
                     if (type == "LineString")
                       lines.push_back(make_line(coordinates, path, feature.where, plane));
@@ -82,13 +82,25 @@ void add_rings(const GeoGeometry& geometry, std::vector<Points3>& rings) {
     }
 }
 
-/// Reads lines, and polygons as their coasts, in a plane as their rings.
+/// Adds the points of a geometry, each a line of one point.
+void add_points(const Json& positions, const std::string& path, const std::string& where,
+                bool plane, std::vector<Points3>& points) {
+  const Points3 all = make_line(positions, path, where, plane);
+  for (Eigen::Index i = 0; i < all.cols(); ++i)
+    points.emplace_back(all.col(i));
+}
+
+/// Reads points, lines, and polygons as their coasts, in a plane as their rings.
 std::vector<Points3> read_lines_and_coasts(const std::string& path, bool plane) {
-  std::vector<Points3> rings;
+  std::vector<Points3> points, rings;
   Coast coast;
   std::vector<Points3> shapes = read_geojson_lines(
       path, plane,
       [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
+        if (type == "Point")
+          return add_points(Json::array({coordinates}), path, feature.where, plane, points);
+        if (type == "MultiPoint")
+          return add_points(coordinates, path, feature.where, plane, points);
         if (!is_polygon(type))
           refuse_type(path, feature, type);
         const GeoGeometry geometry =
@@ -100,9 +112,10 @@ std::vector<Points3> read_lines_and_coasts(const std::string& path, bool plane) 
       });
   if (!plane)
     rings = shores(coast);
+  shapes.insert(shapes.end(), points.begin(), points.end());
   shapes.insert(shapes.end(), rings.begin(), rings.end());
   if (shapes.empty())
-    fail_file(path, "no lines or polygons; give geometries of these");
+    fail_file(path, "no points, lines or polygons; give geometries of these");
   return shapes;
 }
 
@@ -119,7 +132,7 @@ std::vector<Points3> read_lines(const std::string& path, const Surface& surface)
 }
 
 std::vector<Points3> lines_in(const std::string& path, const Surface& surface) {
-  if (!is_geojson(path))
+  if (!has_geometries(path))
     return {};
   bool others = false;
   std::vector<Points3> lines =

@@ -264,8 +264,8 @@ TEST_CASE("options of widths that do not go together are refused") {
   const TextFile file(".msh", jigsaw_grid("100"));
   CHECK(message_of(parsed({"--cell-width", file.path(), "--transition", "100"})) ==
         file.path() + " holds no polygons; leave --transition out");
-  CHECK(message_of(parsed({"--cell-width", "a.shp", "--transition", "100"}))
-            .starts_with("a.shp: this is a shapefile"));
+  CHECK(message_of(parsed({"--cell-width", "a.gpkg", "--transition", "100"}))
+            .starts_with("a.gpkg: this is a GeoPackage"));
   CHECK(message_of(parsed({"--cell-width", "absent.nc"})) != "not refused");
   CHECK(message_of(parsed({"--density-raster", "absent.nc"})) != "not refused");
   const auto check_usage = [](const std::vector<std::string>& arguments) {
@@ -376,7 +376,7 @@ TEST_CASE("--region: words that are refused") {
            {"bbox=1,2,3,4", "--region bbox=1,2,3,4: there is no such shape, and no such file; give "
                             "circle=LON,LAT,RADIUS, ellipse=LON,LAT,MAJOR,MINOR,BEARING, "
                             "box=WEST,SOUTH,EAST,NORTH, channel=LOWER,UPPER, land=FILE,LON,LAT, or "
-                            "the file of a region (.geojson, .json or .pts)"},
+                            "the file of a region (.geojson, .json, .shp or .pts)"},
            {"0,0,20,20", "there is no such shape, and no such file; give circle="},
            {"europe", "there is no such shape, and no such file; give circle="},
            {"R.txt", "R.txt: the name determines no format of regions"},
