@@ -2,6 +2,7 @@
 #include "base/require.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
+#include "io/bytes/file_names.h"
 #include "io/cells/cell_rows.h"
 #include "io/cells/mesh_intake.h"
 #include "io/cells/model_grid.h"
@@ -35,8 +36,10 @@ using namespace io_detail;
 /// \throws Error invalid_argument, if neither determines a format.
 bool is_netcdf_mesh(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
-  if (!format && !is_netcdf_file(path))
+  if (!format && !is_netcdf_file(path)) {
+    refuse_foreign(path);
     refuse_name(path);
+  }
   return !format || info_of(*format).netcdf;
 }
 
@@ -140,7 +143,7 @@ bool is_netcdf_file(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error))
     return false;
   std::array<char, 4> start{};
-  std::ifstream in = open_input(path);
+  std::ifstream in = open_geometries(path);
   read_some(in, start.data(), std::ssize(start), path);
   const std::string_view bytes(start.data(), start.size());
   return bytes.starts_with("CDF") || bytes == "\x89HDF";
