@@ -83,8 +83,7 @@ public:
     IdLists out{Offsets::LinSpaced(positions.cols() + 1, 0, k * positions.cols()),
                 Ids(k * positions.cols())};
     for_each_position(positions, {}, [&](const Position& p, std::int32_t from, std::int64_t i) {
-      find_nearest(p, out[i]);
-      return from;
+      return find_nearest(p, from, out[i]);
     });
     return out;
   }
@@ -274,10 +273,16 @@ private:
     std::int32_t site, triangle;
   };
 
+  /// The end of a walk from site to site.
+  struct End {
+    Corner corner; ///< at a site than which none of its neighbours is nearer
+    bool all;      ///< whether the mesh has all of its neighbours
+    bool tied;     ///< whether some are equally near
+  };
+
   /// Walks from site to site, each nearer than the previous one. A site of a Delaunay triangulation
-  /// is the nearest if none of its neighbours is nearer. Where the mesh lacks neighbours, all sites
-  /// are searched.
-  Near nearest_from(std::int32_t t, const Position& p) const {
+  /// is the nearest if none of its neighbours is nearer.
+  End walk_to_nearest(std::int32_t t, const Position& p) const {
     for (Corner here{t, 0};;) {
       Corner best = here;
       bool tied = false;
@@ -287,14 +292,19 @@ private:
           best = corner;
         tied = tied || order == 0;
       });
-      const std::int32_t site = site_at(faces_, here);
-      if (site_at(faces_, best) == site)
-        return {!all   ? nearest_of_all(here.triangle, p)
-                : tied ? lowest_tie(here, p)
-                       : site,
-                here.triangle};
+      if (site_at(faces_, best) == site_at(faces_, here))
+        return {here, all, tied};
       here = best;
     }
+  }
+
+  /// Where the mesh lacks neighbours, all sites are searched.
+  Near nearest_from(std::int32_t t, const Position& p) const {
+    const End end = walk_to_nearest(t, p);
+    return {!end.all   ? nearest_of_all(end.corner.triangle, p)
+            : end.tied ? lowest_tie(end.corner, p)
+                       : site_at(faces_, end.corner),
+            end.corner.triangle};
   }
 
   /// The lowest of the equally near sites. Their circle is empty, so that edges connect them.
@@ -371,33 +381,92 @@ private:
   struct Candidate {
     double square;
     std::int32_t site;
+    Corner corner = no_corner; ///< at the site, until its neighbours have been visited
   };
 
-  /// Fills a list with the sites nearest to p.
-  void find_nearest(const Position& p, std::span<std::int32_t> list) const {
-    double limit = std::numeric_limits<double>::infinity();
-    const auto before = [&](const Candidate& a, const Candidate& b) {
-      if (a.square > beyond(p, b.square) || b.square > beyond(p, a.square))
+  /// The nearest sites to a position, sorted: equally near ones by id.
+  class Nearest {
+  public:
+    Nearest(const LocatorIn& in, const Position& p, std::size_t count)
+        : in_(in), p_(p), count_(count) {
+      found_.reserve(count + 1);
+    }
+
+    /// Sites beyond are not among the nearest.
+    const double& limit() const { return limit_; }
+
+    /// Does nothing for a site that is known.
+    void consider(std::int32_t site, Corner corner = no_corner) {
+      const Candidate candidate{in_.square_of(p_, site), site, corner};
+      if (candidate.square > limit_)
+        return;
+      const auto at =
+          std::upper_bound(found_.begin(), found_.end(), candidate,
+                           [&](const Candidate& a, const Candidate& b) { return is_before(a, b); });
+      if (at != found_.begin() && (at - 1)->site == site)
+        return;
+      found_.insert(at, candidate);
+      if (found_.size() > count_)
+        found_.pop_back();
+      if (found_.size() == count_)
+        limit_ = in_.beyond(p_, found_.back().square);
+    }
+
+    /// A corner at the nearest site whose neighbours have not been visited; then they have. None if
+    /// there is no such site.
+    Corner next() {
+      for (Candidate& candidate : found_)
+        if (exists(candidate.corner))
+          return std::exchange(candidate.corner, no_corner);
+      return no_corner;
+    }
+
+    void clear() {
+      found_.clear();
+      limit_ = std::numeric_limits<double>::infinity();
+    }
+
+    const std::vector<Candidate>& found() const { return found_; }
+
+  private:
+    bool is_before(const Candidate& a, const Candidate& b) const {
+      if (a.square > in_.beyond(p_, b.square) || b.square > in_.beyond(p_, a.square))
         return a.square < b.square;
-      const int order = seen_.compare(p, a.site, b.site);
+      const int order = in_.seen_.compare(p_, a.site, b.site);
       return order < 0 || (order == 0 && a.site < b.site);
-    };
-    std::vector<Candidate> found;
-    found.reserve(list.size() + 1);
-    for_each_near(p, limit, [&](std::int32_t site) {
-      const Candidate candidate{square_of(p, site), site};
-      if (candidate.square > limit)
-        return;
-      const auto at = std::upper_bound(found.begin(), found.end(), candidate, before);
-      if (at != found.begin() && (at - 1)->site == site) // a copy of it
-        return;
-      found.insert(at, candidate);
-      if (found.size() > list.size())
-        found.pop_back();
-      if (found.size() == list.size())
-        limit = beyond(p, found.back().square);
-    });
-    std::ranges::transform(found, list.begin(), &Candidate::site);
+    }
+
+    const LocatorIn& in_;
+    const Position& p_;
+    std::size_t count_;
+    double limit_ = std::numeric_limits<double>::infinity();
+    std::vector<Candidate> found_;
+  };
+
+  /// Fills a list with the sites nearest to p. Returns a triangle near p.
+  std::int32_t find_nearest(const Position& p, std::int32_t from,
+                            std::span<std::int32_t> list) const {
+    const bool copied = !mesh_.surface.period().isZero();
+    const End end = copied ? End{{from, 0}, false, false} : walk_to_nearest(from, p);
+    Nearest nearest(*this, p, list.size());
+    if (!end.all || !visit_neighbours(end.corner, nearest)) {
+      nearest.clear();
+      for_each_near(p, nearest.limit(), [&](std::int32_t site) { nearest.consider(site); });
+    }
+    std::ranges::transform(nearest.found(), list.begin(), &Candidate::site);
+    return end.corner.triangle;
+  }
+
+  /// Visits the nearest sites from one of the nearest on: each site that is not the nearest has a
+  /// neighbour that is nearer, and edges connect those that are equally near.
+  /// \returns false where the mesh lacks neighbours.
+  bool visit_neighbours(Corner first, Nearest& nearest) const {
+    nearest.consider(site_at(faces_, first), first);
+    for (Corner here = nearest.next(); exists(here); here = nearest.next())
+      if (!for_each_neighbour(
+              here, [&](std::int32_t site, Corner corner) { nearest.consider(site, corner); }))
+        return false;
+    return true;
   }
 
   /// Calls body(site) once for each site within a distance of p.
