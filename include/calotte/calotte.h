@@ -2,6 +2,7 @@
 #pragma once
 
 /// All of the library.
+#include <calotte/area_weights.h>  // areas of the cells of points
 #include <calotte/boundary.h>      // parts of the boundary of a mesh
 #include <calotte/check.h>         // whether a mesh is Delaunay, in exact arithmetic
 #include <calotte/checkpoint.h>    // the state of a run in a file

@@ -11,32 +11,15 @@
 namespace calotte::domain_detail {
 namespace {
 
-/// The part of a convex polygon where normal.x <= offset.
-/// \param beyond the generator across the new side, or 0.
-std::vector<CellCorner> cut(const std::vector<CellCorner>& polygon, const Vec2& normal,
-                            double offset, const Vec2& beyond = {0, 0}) {
-  std::vector<CellCorner> part;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const CellCorner &a = polygon[k], &b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
-    const double over_a = dot(normal, a.point) - offset, over_b = dot(normal, b.point) - offset;
-    if (over_a <= 0)
-      part.push_back({a.point, over_a == 0 && over_b > 0 ? beyond : a.beyond});
-    if ((over_a < 0) != (over_b < 0) && over_a != 0 && over_b != 0)
-      part.push_back({a.point + (over_a / (over_a - over_b)) * (b.point - a.point),
-                      over_b > 0 ? beyond : a.beyond});
-  }
-  return part;
-}
-
 /// Cuts a cell to a slightly enlarged box: cells along the hull extend far beyond the domain.
 std::vector<CellCorner> cut_to_box(std::vector<CellCorner> cell, const Box2& box,
                                    const Vec2& site) {
   const Vec2 margin = 0.01 * (box.high - box.low), low = box.low - site - margin,
              high = box.high - site + margin;
-  cell = cut(cell, {1, 0}, high.x);
-  cell = cut(cell, {-1, 0}, -low.x);
-  cell = cut(cell, {0, 1}, high.y);
-  return cut(cell, {0, -1}, -low.y);
+  cell = cut_by_line(cell, {1, 0}, high.x);
+  cell = cut_by_line(cell, {-1, 0}, -low.x);
+  cell = cut_by_line(cell, {0, 1}, high.y);
+  return cut_by_line(cell, {0, -1}, -low.y);
 }
 
 /// The bounding box of a polygon, widened by more than rounding and more than the inward offset of
@@ -233,9 +216,24 @@ bool near_boundary(const Outline& outline, const Vec2& site, const std::vector<C
   return near_boundary(outline, site, std::sqrt(reach2));
 }
 
+std::vector<CellCorner> cut_by_line(const std::vector<CellCorner>& polygon, const Vec2& normal,
+                                    double offset, const Vec2& beyond) {
+  std::vector<CellCorner> part;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const CellCorner &a = polygon[k], &b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+    const double over_a = dot(normal, a.point) - offset, over_b = dot(normal, b.point) - offset;
+    if (over_a <= 0)
+      part.push_back({a.point, over_a == 0 && over_b > 0 ? beyond : a.beyond});
+    if ((over_a < 0) != (over_b < 0) && over_a != 0 && over_b != 0)
+      part.push_back({a.point + (over_a / (over_a - over_b)) * (b.point - a.point),
+                      over_b > 0 ? beyond : a.beyond});
+  }
+  return part;
+}
+
 std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon,
                                         const Vec2& beyond) {
-  return cut(polygon, beyond, dot(beyond, beyond) / 2, beyond);
+  return cut_by_line(polygon, beyond, dot(beyond, beyond) / 2, beyond);
 }
 
 template <class AnyOutline>

@@ -30,6 +30,11 @@ struct CellCorner {
 bool near_boundary(const Outline& outline, const Vec2& site, double reach);
 bool near_boundary(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell);
 
+/// The part of a convex polygon where normal.x <= offset.
+/// \param beyond the generator across the new side, or 0.
+std::vector<CellCorner> cut_by_line(const std::vector<CellCorner>& polygon, const Vec2& normal,
+                                    double offset, const Vec2& beyond = {0, 0});
+
 /// The part of a convex polygon that is on the cell's side of the bisector with another generator.
 std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon, const Vec2& beyond);
 

@@ -102,16 +102,17 @@ struct SphereMeasures {
   }
 };
 
-/// A periodic plane; points are in its box.
+/// A plane with periods, of which 0 is none; points are in its box.
 struct PlaneMeasures {
   double width, depth;
 
   static CALOTTE_INLINE double nearest(double difference, double period) {
-    return difference - period * std::floor(difference / period + 0.5);
+    const double turns = std::floor(difference / (period > 0 ? period : 1) + 0.5);
+    return difference - period * turns;
   }
   static CALOTTE_INLINE double wrapped(double x, double period) {
-    const double inside = x - period * std::floor(x / period);
-    return inside < period ? inside : 0; // rounding can reach it
+    const double inside = x - period * std::floor(x / (period > 0 ? period : 1));
+    return period == 0 || inside < period ? inside : 0; // rounding can reach it
   }
   CALOTTE_INLINE Vec3 wrapped_point(const Vec3& p) const {
     return {wrapped(p.x, width), wrapped(p.y, depth), 0};

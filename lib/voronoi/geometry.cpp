@@ -76,18 +76,31 @@ void measure_triangles(const PlaneMeasures& measures, TriangleBatch& batch) {
 }
 
 template <class Measures>
-void gather_triangles(const Measures& measures, const Voronoi& of, std::int64_t t, std::int64_t end,
-                      TriangleBatch& batch) {
+void gather_triangles(const Measures& measures, const Points3& cells, const Triangles& triangles,
+                      std::int64_t t, std::int64_t end, TriangleBatch& batch) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::int32_t a = of.cells_on_vertex(0, t), b = of.cells_on_vertex(1, t),
-                       c = of.cells_on_vertex(2, t);
-    put(column(of.cells, a), batch.corner[0], lane);
-    put(column(of.cells, b), batch.corner[1], lane);
-    put(column(of.cells, c), batch.corner[2], lane);
-    put(measures.difference(of.cells, b, c), batch.side[0], lane);
-    put(measures.difference(of.cells, c, a), batch.side[1], lane);
-    put(measures.difference(of.cells, a, b), batch.side[2], lane);
+    const std::int32_t a = triangles(0, t), b = triangles(1, t), c = triangles(2, t);
+    put(column(cells, a), batch.corner[0], lane);
+    put(column(cells, b), batch.corner[1], lane);
+    put(column(cells, c), batch.corner[2], lane);
+    put(measures.difference(cells, b, c), batch.side[0], lane);
+    put(measures.difference(cells, c, a), batch.side[1], lane);
+    put(measures.difference(cells, a, b), batch.side[2], lane);
     t = std::min(t + 1, end - 1);
+  }
+}
+
+/// Calls body(batch, lane, t) for triangles begin to end - 1, measured.
+template <class Measures, class Body>
+void measure_each(const Measures& measures, const Points3& cells, const Triangles& triangles,
+                  std::int64_t begin, std::int64_t end, const Body& body) {
+  TriangleBatch batch;
+  for (std::int64_t first = begin; first < end; first += lanes) {
+    gather_triangles(measures, cells, triangles, first, end, batch);
+    measure_triangles(measures, batch);
+    const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
+    for (std::int64_t t = first; t < last; ++t)
+      body(batch, static_cast<std::size_t>(t - first), t);
   }
 }
 
@@ -107,23 +120,17 @@ void scatter_triangle(const TriangleBatch& batch, std::size_t lane, std::int64_t
 template <class Measures>
 void set_vertices(const Measures& measures, std::int64_t begin, std::int64_t end, Voronoi& out,
                   Vec3* positions) {
-  TriangleBatch batch;
-  for (std::int64_t first = begin; first < end; first += lanes) {
-    gather_triangles(measures, out, first, end, batch);
-    measure_triangles(measures, batch);
-    const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
-    for (std::int64_t t = first; t < last; ++t) {
-      const auto lane = static_cast<std::size_t>(t - first);
-      positions[t - begin] = at(batch.centre, lane);
-      scatter_triangle(batch, lane, t, out);
-    }
-  }
+  measure_each(measures, out.cells, out.cells_on_vertex, begin, end,
+               [&](const TriangleBatch& batch, std::size_t lane, std::int64_t t) {
+                 positions[t - begin] = at(batch.centre, lane);
+                 scatter_triangle(batch, lane, t, out);
+               });
 }
 
 template <class Measures>
 Vec3 circumcentre(const Measures& measures, const Voronoi& of, std::int64_t triangle) {
   TriangleBatch batch;
-  gather_triangles(measures, of, triangle, triangle + 1, batch);
+  gather_triangles(measures, of.cells, of.cells_on_vertex, triangle, triangle + 1, batch);
   measure_triangles(measures, batch);
   return at(batch.centre, 0);
 }
@@ -209,11 +216,11 @@ void set_edges(const Measures& measures, std::int64_t begin, std::int64_t end, V
 
 /// Calls body(measures) with the measures of the tessellation's space.
 template <class Body>
-void with_measures(const Voronoi& of, const Array<double>& surplus, const Body& body) {
-  if (of.surface.is_sphere())
+void with_measures(const Surface& surface, const Array<double>& surplus, const Body& body) {
+  if (surface.is_sphere())
     body(SphereMeasures{surplus});
   else
-    body(PlaneMeasures{of.surface.period()[0], of.surface.period()[1]});
+    body(PlaneMeasures{surface.period()[0], surface.period()[1]});
 }
 
 /// The columns of points from `first` on.
@@ -235,13 +242,9 @@ void measure_areas(Voronoi& out) {
   });
 }
 
-Array<double> begin_measures(Voronoi& out) {
-  out.kites.resize(3, out.cells_on_vertex.cols());
-  out.dv.resize(out.cells_on_edge.cols());
-  out.dc.resize(out.cells_on_edge.cols());
-  if (!out.surface.is_sphere())
+Array<double> surplus_of(const Surface& surface, const Points3& cells) {
+  if (!surface.is_sphere())
     return {};
-  const Points3& cells = out.cells;
   Array<double> surplus(cells.cols());
   for_each_block(cells.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
@@ -254,15 +257,34 @@ Array<double> begin_measures(Voronoi& out) {
   return surplus;
 }
 
+Array<double> begin_measures(Voronoi& out) {
+  out.kites.resize(3, out.cells_on_vertex.cols());
+  out.dv.resize(out.cells_on_edge.cols());
+  out.dc.resize(out.cells_on_edge.cols());
+  return surplus_of(out.surface, out.cells);
+}
+
+void measure_half_kites(const Surface& surface, const Points3& cells, const Array<double>& surplus,
+                        const Triangles& triangles, std::int64_t begin, std::int64_t end,
+                        HalfKites* out) {
+  with_measures(surface, surplus, [&](const auto& measures) {
+    measure_each(measures, cells, triangles, begin, end,
+                 [&](const TriangleBatch& batch, std::size_t lane, std::int64_t t) {
+                   for (std::size_t j = 0; j < 3; ++j)
+                     out[t - begin][j] = {batch.arc[j][lane], batch.area[j][lane]};
+                 });
+  });
+}
+
 void measure_vertices(const Array<double>& surplus, std::int64_t begin, std::int64_t end,
                       Voronoi& out, Vec3* positions) {
-  with_measures(out, surplus,
+  with_measures(out.surface, surplus,
                 [&](const auto& measures) { set_vertices(measures, begin, end, out, positions); });
 }
 
 void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_t end, Voronoi& out,
                    Vec3* positions, double* angles) {
-  with_measures(out, surplus, [&](const auto& measures) {
+  with_measures(out.surface, surplus, [&](const auto& measures) {
     set_edges(measures, begin, end, out, positions, angles);
   });
 }

@@ -3,10 +3,12 @@
 
 #include "base/array.h"
 #include "base/vec3.h"
+#include "voronoi/dual_measures.h"
 #include "voronoi/room.h"
 
 #include <calotte/voronoi.h>
 
+#include <array>
 #include <cstdint>
 
 namespace calotte::voronoi_detail {
@@ -28,9 +30,11 @@ void measure(Voronoi& out);
 /// neither. The order is begin_measures(), all vertices, all edges; measure_areas() may follow the
 /// vertices. Several threads may measure disjoint ranges.
 
-/// Makes room for kites, dv and dc.
-/// \returns the argument `surplus` of the functions below: by cell its norm minus 1, to a few
-///          digits; empty in a plane.
+/// The argument `surplus` of the functions below: by cell its norm minus 1, to a few digits; empty
+/// in a plane.
+Array<double> surplus_of(const Surface& surface, const Points3& cells);
+
+/// Makes room for kites, dv and dc. \returns surplus_of() the cells.
 Array<double> begin_measures(Voronoi& out);
 
 /// Sets the kites of vertices begin to end - 1.
@@ -45,6 +49,15 @@ void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_
 
 /// Sets the areas of the cells.
 void measure_areas(Voronoi& out);
+
+/// The half kites of a triangle, by the vertex across from their side.
+using HalfKites = std::array<dual::HalfKite, 3>;
+
+/// Sets the half kites of triangles begin to end - 1, in a plane without periods, too; for callers
+/// that need no more of a tessellation.
+void measure_half_kites(const Surface& surface, const Points3& cells, const Array<double>& surplus,
+                        const Triangles& triangles, std::int64_t begin, std::int64_t end,
+                        HalfKites* out);
 
 /// The area of a triangle of a closed mesh, as Voronoi::vertex_area stores it.
 inline double vertex_area(const Voronoi& of, std::int64_t vertex) {

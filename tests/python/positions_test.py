@@ -124,3 +124,38 @@ def test_errors():
         calotte.interpolate(mesh, ["a"] * 50, np.eye(3))
     with pytest.raises(calotte.Error, match="no method cubic; give one of: linear, natural, nearest"):
         calotte.interpolate(mesh, np.ones(50), np.eye(3), method="cubic")
+
+
+def test_area_weights():
+    scipy_spatial = pytest.importorskip("scipy.spatial")
+    points = calotte.random_points(3000, seed=4)
+    weights = calotte.area_weights(points)
+    areas = scipy_spatial.SphericalVoronoi(points).calculate_areas()
+    assert np.abs(weights - areas).max() < 1e-13 and abs(weights.sum() - 4 * np.pi) < 1e-12
+    twice = np.concatenate([points, points[:7]])
+    shared = calotte.area_weights(twice)
+    assert (shared[:7] == weights[:7] / 2).all() and (shared[3000:] == shared[:7]).all()
+    single = calotte.area_weights(points.astype(np.float32))
+    assert np.abs(single / weights - 1).max() < 1e-2
+
+    longitudes, latitudes = np.meshgrid(np.arange(5, 16, 0.25), np.arange(44, 55, 0.25))
+    nodes = np.stack([longitudes.ravel(), latitudes.ravel()], axis=1)
+    bounded = calotte.area_weights(nodes) / np.cos(np.radians(nodes[:, 1]))
+    assert bounded.max() / bounded.min() < 1.01
+    assert calotte.area_weights(nodes, edge="hull").sum() < bounded.sum()
+    far = calotte.area_weights(nodes, edge="50km")
+    assert far.max() < np.pi * (50 / 6371) ** 2 and far.sum() > calotte.area_weights(nodes).sum()
+    assert abs(calotte.area_weights(nodes, edge="whole").sum() - 4 * np.pi) < 1e-11
+
+    square = np.stack(np.meshgrid(np.arange(5.0), np.arange(4.0)), axis=-1).reshape(-1, 2)
+    assert np.allclose(calotte.area_weights(square, calotte.plane()), 1)
+    assert abs(calotte.area_weights(square, calotte.plane(), edge="hull").sum() - 12) < 1e-12
+    assert np.allclose(calotte.area_weights(square, calotte.plane(), edge=0.25), np.pi / 16)
+    assert np.allclose(calotte.area_weights(square, calotte.rectangle((-0.5, -0.5), (4.5, 3.5))), 1)
+    for call, text in [(lambda: calotte.area_weights(nodes, edge="far"), "edge is 'far'; give whole, hull"),
+                       (lambda: calotte.area_weights(nodes, edge="100deg"), "at most pi/2"),
+                       (lambda: calotte.area_weights(nodes, gap=0), "the gap is 0"),
+                       (lambda: calotte.area_weights(nodes[:1]), "at least"),
+                       (lambda: calotte.area_weights(square, calotte.plane(), edge="whole"), "unbounded")]:
+        with pytest.raises(calotte.Error, match=text):
+            call()

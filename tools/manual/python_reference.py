@@ -15,7 +15,7 @@ from calotte import _calotte, _functions, widths
 
 GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "gates", "operator_errors",
-                                  "neighbours", "locate", "interpolate", "threads"]),
+                                  "neighbours", "locate", "area_weights", "interpolate", "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
     ("Grids", ["cvt", "plan", "refine", "coarsen", "rotate", "limited_area", "density"]),
     ("Points", ["random_points", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",

@@ -19,7 +19,7 @@ from . import _border, _display, _mesh, widths  # the second and third add metho
 from ._calotte import (CellWidth, Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors,
                        Polygons, Quality, Raster, Surface, Unit, Voronoi, Widths, __version__)
 from ._functions import (Action, ChangedMesh, ChangedPatch, ClosedSea, Cvt, Gate, GeneralisedSea,
-                         Locator, Plan, Weights, bisect, bisected_icosahedron, box, channel, check, circle,
+                         Locator, Plan, Weights, area_weights, bisect, bisected_icosahedron, box, channel, check, circle,
                          coarsen, cubed_sphere, cull, cut, cvt, delaunay, density, ellipse,
                          fibonacci_sphere, from_lonlat, gates, generalised_sea, geodesic_sphere,
                          hexagonal_lattice, interpolate, interpolation_weights, lat_lon_sphere,
@@ -32,7 +32,7 @@ from ._functions import (Action, ChangedMesh, ChangedPatch, ClosedSea, Cvt, Gate
 __all__ = [
     "Action", "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "ClosedSea", "Cvt", "Density", "Error",
     "Gate", "GeneralisedSea", "IdLists", "Locations", "Locator", "Mesh", "OperatorErrors", "Plan", "Polygons",
-    "Quality", "Raster", "Surface", "Unit", "Voronoi", "Weights", "Widths", "__version__", "bisect",
+    "Quality", "Raster", "Surface", "Unit", "Voronoi", "Weights", "Widths", "__version__", "area_weights", "bisect",
     "bisected_icosahedron", "box", "channel", "check", "circle", "coarsen", "cubed_sphere", "cull",
     "cut", "cvt", "delaunay", "density",
     "ellipse", "fibonacci_sphere", "from_lonlat", "gates", "generalised_sea", "geodesic_sphere",

@@ -83,6 +83,40 @@ def delaunay(points: ArrayLike, surface: SurfaceLike | None = None, *, merge_wit
     return _calotte.delaunay(sites, where, merge_within, duplicates == "merge", regions)
 
 
+def area_weights(points: ArrayLike, surface: SurfaceLike | None = None, *, edge: str | float | None = None,
+                 gap: float = 3.0, merge_within: float = 0.0) -> Array:
+    """The area of each point's Voronoi cell, such as the weights of the nodes of a mean or of a loss
+    function. Equal points share their cell in equal parts.
+
+    points, surface: as for delaunay(), with duplicates and in any order. Rings of the surface bound the
+        cells.
+    edge: where cells end at the edge of the set. "whole": nowhere, they are Voronoi cells. "hull": at the
+        convex hull of the points. "neighbours": half way to their neighbours, mirrored at their point,
+        where the open reaches it; cells at the edge of a lattice are as large as those inside. Or a
+        distance from their point, at which all cells end: degrees, or a length such as "100km", at most
+        90 degrees; in a plane a number. Default: whole if the points surround the sphere or fill a
+        periodic box, else neighbours.
+    gap: with "neighbours" open are triangles whose circumcircle is more than this times as wide as the
+        narrowest one around each of their points. Raise it where the spacing of the points jumps.
+    merge_within: points this near share a cell; as for delaunay().
+    Returns n weights, in steradians or the square of the plane's unit. They sum to the area that the
+    cells cover. Raises Error, with the index of a point that is wrong.
+
+    >>> nodes = lat_lon_sphere(91, 180)
+    >>> weights = area_weights(nodes)
+    >>> bool(abs(weights.sum() - 4 * math.pi) < 1e-12)
+    True
+    """
+    where = _arguments.surface(surface)
+    sites = _arguments.points_of(where, points)
+    if edge is None or edge in ("whole", "hull", "neighbours"):
+        return _calotte.area_weights(sites, where, edge, 0.0, gap, merge_within)
+    if isinstance(edge, str) and _calotte.measure_of(edge) is None:
+        raise Error(f"edge is {edge!r}; give whole, hull, neighbours, or a distance such as '100km'")
+    reach = _arguments.angle(edge, "edge") if where.is_sphere else _arguments.positive(edge, "edge", "units of the plane")
+    return _calotte.area_weights(sites, where, "reach", reach, gap, merge_within)
+
+
 def neighbours(mesh: Grid) -> IdLists:
     """The neighbours of each cell: the sites at the other ends of the edges of its own.
 

@@ -3,11 +3,19 @@
 #include "calls.h"
 #include "members.h"
 #include "module.h"
+#include "words.h"
 
+#include <calotte/area_weights.h>
 #include <calotte/locate.h>
 
+#include <pybind11/stl.h>
+
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
 namespace calotte::python {
@@ -19,6 +27,21 @@ std::shared_ptr<Locations> locate_in(const Mesh& mesh, const Doubles& positions)
 }
 
 using IdsIn = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+constexpr std::array<NamedValue<EdgeCells>, 4> edge_words{{{"whole", EdgeCells::whole},
+                                                           {"hull", EdgeCells::hull},
+                                                           {"neighbours", EdgeCells::neighbours},
+                                                           {"reach", EdgeCells::reach}}};
+
+py::array weights_of(const Doubles& points, const Surface& surface,
+                     const std::optional<std::string>& edge, double reach, double gap,
+                     double merge_within) {
+  const auto places = columns(points);
+  AreaWeightOptions options{.reach = reach, .gap = gap, .merge_within = merge_within};
+  if (edge)
+    options.edge = named(std::span<const NamedValue<EdgeCells>>(edge_words), *edge, "edge");
+  return handed_over(call([&] { return area_weights(places, surface, options); }));
+}
 
 /// Numbers of Python, or none.
 Ids ids_of(const IdsIn& given) { return Eigen::Map<const Ids>(given.data(), given.size()); }
@@ -39,6 +62,7 @@ void add_positions(py::module_& module) {
              "(k,) the nearest site, the lowest of those that are equally near."});
   type.def("__len__", [](const Locations& locations) { return locations.triangle.size(); });
   module.def("locate", &locate_in);
+  module.def("area_weights", &weights_of);
   py::class_<Locator>(module, "Locator")
       .def(py::init([](const Mesh& mesh) { return call([&] { return Locator(mesh); }); }),
            py::keep_alive<1, 2>())
