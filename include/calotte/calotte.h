@@ -23,6 +23,7 @@
 #include <calotte/matrices.h>      // points, ids and lists
 #include <calotte/mesh.h>          // meshes, polygons, fields, neighbours
 #include <calotte/mesh_file.h>     // what a file of a mesh holds, and its check
+#include <calotte/multimesh.h>     // nested nodes for graphs of machine learning
 #include <calotte/ocean.h>         // land, seas and coasts
 #include <calotte/partition.h>     // parts of cells for processes
 #include <calotte/progress.h>      // progress and cancelling

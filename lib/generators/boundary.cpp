@@ -40,17 +40,21 @@ std::vector<Curve<S>> make_curves(const Surface& surface, const DemandedSpacing&
   return curves;
 }
 
+/// The point after a number of edges, not outside by rounding.
+template <Space S> Vec3 point_at(const Curve<S>& curve, const OutlineOf<S>& outline, double stop) {
+  const auto [point, segment] = curve.position(stop);
+  return domain_detail::pushed_inside<S>(outline, point,
+                                         domain_detail::left_of<S>(curve.segments()[segment]));
+}
+
 /// The generators along a part of a boundary, without the ends of an open one.
 template <Space S>
 std::vector<Vec3> points_along(const Curve<S>& curve, const OutlineOf<S>& outline) {
   const std::vector<double> stops = curve.stops(true);
   const std::size_t ends = curve.is_closed() ? 0 : 1;
   std::vector<Vec3> points;
-  for (std::size_t k = ends; k + ends < stops.size(); ++k) {
-    const auto [point, segment] = curve.position(stops[k]);
-    points.push_back(domain_detail::pushed_inside<S>(
-        outline, point, domain_detail::left_of<S>(curve.segments()[segment])));
-  }
+  for (std::size_t k = ends; k + ends < stops.size(); ++k)
+    points.push_back(point_at<S>(curve, outline, stops[k]));
   return points;
 }
 
@@ -63,9 +67,42 @@ double whole_cells(double n, double edges) {
   return n / (s * s);
 }
 
+/// A generator of a ring: its position in edges, and its id.
+struct Stop {
+  double edges;
+  std::int32_t id;
+};
+
+/// The stops of a ring with others in the middle between them. \param next_id of the first of
+/// these.
+std::vector<Stop> halved(const std::vector<Stop>& ring, double length, std::int32_t next_id) {
+  std::vector<Stop> out;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const double from = ring[k].edges,
+                 to = k + 1 < ring.size() ? ring[k + 1].edges : ring[0].edges + length,
+                 middle = from + (to - from) / 2;
+    out.push_back(ring[k]);
+    out.push_back({middle < length ? middle : middle - length, next_id++});
+  }
+  return out;
+}
+
+BoundaryPoints linked(const std::vector<Vec3>& positions,
+                      const std::vector<std::vector<Stop>>& rings) {
+  BoundaryPoints out;
+  out.points.resize(3, std::ssize(positions));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    base_detail::set_column(out.points, static_cast<std::int64_t>(i), positions[i]);
+  out.next.resize(positions.size());
+  for (const std::vector<Stop>& ring : rings)
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      out.next[static_cast<std::size_t>(ring[k].id)] = ring[(k + 1) % ring.size()].id;
+  return out;
+}
+
 template <Space S>
-BoundaryPoints points_on_boundary(const Surface& surface, std::int64_t cells,
-                                  const Density& density) {
+std::vector<BoundaryPoints> points_on_boundary(const Surface& surface, std::int64_t cells,
+                                               const Density& density, int halvings) {
   constexpr std::int64_t samples = 65536;
   const auto n = static_cast<double>(cells);
   double edges = 0;
@@ -74,34 +111,49 @@ BoundaryPoints points_on_boundary(const Surface& surface, std::int64_t cells,
     edges += curve.edges();
   const DemandedSpacing spacing(surface, density, whole_cells(n, edges), samples);
   const std::vector<Curve<S>> curves = make_curves<S>(surface, spacing);
-  BoundaryPoints out;
   std::vector<Vec3> positions;
+  std::vector<std::vector<Stop>> rings(curves.size());
+  const auto place = [&](std::size_t ring) { // those that have an id beyond the positions
+    for (const Stop& stop : rings[ring])
+      if (stop.id >= std::ssize(positions))
+        positions.push_back(point_at<S>(curves[ring], *outline_of<S>(surface), stop.edges));
+  };
+  const auto next_id = [&] { return static_cast<std::int32_t>(positions.size()); };
   for (std::size_t ring = 0; ring < curves.size(); ++ring) {
-    const Curve<S>& curve = curves[ring];
-    require(curve.edges() > 0,
+    require(curves[ring].edges() > 0,
             "the density is zero along ring {} of the boundary; make it positive", ring);
-    for (const Vec3& point : points_along(curve, *outline_of<S>(surface)))
-      positions.push_back(point);
-    const auto first = static_cast<std::int32_t>(out.next.size());
-    for (std::int32_t k = first + 1; k < std::ssize(positions); ++k)
-      out.next.push_back(k);
-    out.next.push_back(first);
+    std::int32_t id = next_id();
+    for (const double stop : curves[ring].stops(true))
+      rings[ring].push_back({stop, id++});
+    place(ring);
   }
-  out.points.resize(3, std::ssize(positions));
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    base_detail::set_column(out.points, static_cast<std::int64_t>(i), positions[i]);
+  std::vector<BoundaryPoints> out{linked(positions, rings)};
+  for (int k = 0; k < halvings; ++k) {
+    for (std::size_t ring = 0; ring < curves.size(); ++ring) {
+      rings[ring] = halved(rings[ring], curves[ring].edges(), next_id());
+      place(ring);
+    }
+    out.push_back(linked(positions, rings));
+  }
   return out;
 }
 
 } // namespace
 
-BoundaryPoints generators_detail::all_boundary_points(const Surface& surface, std::int64_t cells,
-                                                      const Density& density) {
+std::vector<BoundaryPoints> generators_detail::halved_boundary_points(const Surface& surface,
+                                                                      std::int64_t cells,
+                                                                      const Density& density,
+                                                                      int halvings) {
   base_detail::require_count(cells, 4, "the number of cells");
   if (!surface.is_bounded())
-    return {Points3(3, 0), {}};
-  return surface.is_sphere() ? points_on_boundary<Sphere>(surface, cells, density)
-                             : points_on_boundary<Plane>(surface, cells, density);
+    return std::vector<BoundaryPoints>(static_cast<std::size_t>(halvings) + 1, {Points3(3, 0), {}});
+  return surface.is_sphere() ? points_on_boundary<Sphere>(surface, cells, density, halvings)
+                             : points_on_boundary<Plane>(surface, cells, density, halvings);
+}
+
+BoundaryPoints generators_detail::all_boundary_points(const Surface& surface, std::int64_t cells,
+                                                      const Density& density) {
+  return halved_boundary_points(surface, cells, density, 0).front();
 }
 
 BoundaryPoints generators_detail::limited_boundary_points(const Surface& surface,

@@ -23,7 +23,12 @@ struct BoundaryPoints {
 /// boundary_points() without the limit by the number of generators.
 BoundaryPoints all_boundary_points(const Surface& surface, std::int64_t cells,
                                    const Density& density);
-/// The same with it. \throws Error as boundary_points().
+/// The points of all_boundary_points(), and after them those that halve the gaps between them, so
+/// many times, measured in the edges that the density demands.
+/// \returns for each number of halvings from 0 on all points so far; those before keep their ids.
+std::vector<BoundaryPoints> halved_boundary_points(const Surface& surface, std::int64_t cells,
+                                                   const Density& density, int halvings);
+/// all_boundary_points() with the limit. \throws Error as boundary_points().
 BoundaryPoints limited_boundary_points(const Surface& surface, std::int64_t cells,
                                        const Density& density);
 
