@@ -11,13 +11,13 @@ import re
 import textwrap
 
 import calotte
-from calotte import _calotte, _functions, widths
+from calotte import _calotte, widths
 
 GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "gates", "operator_errors",
                                   "neighbours", "locate", "area_weights", "interpolate", "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
-    ("Grids", ["cvt", "plan", "refine", "coarsen", "rotate", "limited_area", "density"]),
+    ("Grids", ["cvt", "plan", "refine", "coarsen", "rotate", "limited_area", "multimesh", "density"]),
     ("Points", ["random_points", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",
                 "bisected_icosahedron", "lat_lon_sphere", "cubed_sphere", "hexagonal_lattice",
                 "bisect", "from_lonlat", "to_lonlat"]),
@@ -26,7 +26,7 @@ GROUPS = [
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
 WIDTHS = ["by_latitude", "by_distance", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
-KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Locator", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "GeneralisedSea", "ClosedSea", "Quality",
+KINDS = ["Mesh", "Surface", "IdLists", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Locator", "Cvt", "Action", "Plan", "Multimesh", "ChangedMesh", "ChangedPatch", "GeneralisedSea", "ClosedSea", "Quality",
          "Unit", "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Gate", "Density", "CellWidth", "Widths", "Error"]
 
 
@@ -122,7 +122,7 @@ def page():
     for title, names in GROUPS:
         lines += [f"## {title}", ""]
         for name in names:
-            lines += function_lines(name, getattr(_functions, name))
+            lines += function_lines(name, getattr(calotte, name))
     lines += ["## Rules for widths", "", "Of the module `calotte.widths`; see [Cell widths](cell-widths.md).", ""]
     for name in WIDTHS:
         lines += function_lines(name, getattr(widths, name))

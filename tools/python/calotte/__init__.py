@@ -28,16 +28,18 @@ from ._functions import (Action, ChangedMesh, ChangedPatch, ClosedSea, Cvt, Gate
                          quality, random_points, raster, read, read_fields, read_points,
                          read_weights, rectangle, refine, rotate, spiral_sphere, threads, to_lonlat,
                          voronoi, write)
+from ._multimesh import Multimesh, multimesh
 
 __all__ = [
     "Action", "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "ClosedSea", "Cvt", "Density", "Error",
-    "Gate", "GeneralisedSea", "IdLists", "Locations", "Locator", "Mesh", "OperatorErrors", "Plan", "Polygons",
-    "Quality", "Raster", "Surface", "Unit", "Voronoi", "Weights", "Widths", "__version__", "area_weights", "bisect",
+    "Gate", "GeneralisedSea", "IdLists", "Locations", "Locator", "Mesh", "Multimesh", "OperatorErrors", "Plan", "Polygons",
+    "Quality", "Raster", "Surface", "Unit", "Voronoi", "Weights", "Widths", "__version__", "area_weights",
+    "bisect",
     "bisected_icosahedron", "box", "channel", "check", "circle", "coarsen", "cubed_sphere", "cull",
     "cut", "cvt", "delaunay", "density",
     "ellipse", "fibonacci_sphere", "from_lonlat", "gates", "generalised_sea", "geodesic_sphere",
     "hexagonal_lattice", "interpolate", "interpolation_weights", "lat_lon_sphere", "limited_area",
-    "locate", "neighbours", "operator_errors", "partition", "periodic_box", "plan", "planar_polygon",
+    "locate", "multimesh", "neighbours", "operator_errors", "partition", "periodic_box", "plan", "planar_polygon",
     "plane", "polygon", "quality",
     "random_points", "raster", "read", "read_fields", "read_points", "read_weights", "rectangle",
     "refine", "rotate", "spiral_sphere", "threads", "to_lonlat", "voronoi", "widths", "write",

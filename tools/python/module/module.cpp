@@ -30,6 +30,7 @@ PYBIND11_MODULE(_calotte, module) {
   add_points(module);
   add_positions(module);
   add_tessellations(module);
+  add_multimeshes(module);
   add_contents(module);
   add_files(module);
   add_oceans(module);

@@ -18,6 +18,7 @@ void add_surfaces(pybind11::module_& module);
 void add_tessellations(pybind11::module_& module);
 void add_points(pybind11::module_& module);
 void add_positions(pybind11::module_& module);
+void add_multimeshes(pybind11::module_& module);
 void add_contents(pybind11::module_& module);
 void add_files(pybind11::module_& module);
 void add_oceans(pybind11::module_& module);
