@@ -140,19 +140,25 @@ std::int64_t choose_coarsest(const Recipe& recipe, int finest) {
                           }())
                               .density;
   // b generators on the boundary of level 0 are b 2^k on level k, and each has half a cell.
-  double n = given / parts;
+  std::int64_t n = in_range(std::max(given / parts, 4.0), recipe, finest), on_boundary = 0;
   for (int pass = 0; pass < 3; ++pass) {
-    const auto b =
-        static_cast<double>(generators_detail::all_boundary_points(
-                                surface, in_range(std::max(n, 4.0), recipe, finest), density)
-                                .points.cols());
-    const double inside = recipe.cells == 0 ? given : given - std::ldexp(b / 2, finest);
-    n = inside / parts + b / 2;
+    on_boundary = generators_detail::all_boundary_points(surface, n, density).points.cols();
+    const double half = static_cast<double>(on_boundary) / 2,
+                 inside = recipe.cells == 0 ? given : given - std::ldexp(half, finest);
+    n = in_range(inside / parts + half, recipe, finest);
   }
-  return in_range(n, recipe, finest);
+  require(n > on_boundary,
+          "the finest level's nodes leave {} at the coarsest of {} bisections, and its boundary "
+          "takes {}; give fewer levels or more nodes",
+          n, finest, on_boundary);
+  return n;
 }
 
 constexpr double tolerance = 1e-4; // below it ratios of areas to the demanded ones hardly change
+
+/// Of insertion and contraction on each level but the first. A coarse level that does not resolve
+/// the density has its nodes where bisections alone leave too many or too few.
+constexpr int rounds = 6;
 
 /// The schedule of level 0. A polish would move nodes on the boundary.
 Schedule schedule_of_coarsest(const Recipe& given, std::int64_t cells) {
@@ -216,7 +222,7 @@ Schedule schedule_of_level(const Schedule& first, const Mesh& coarse, BoundaryNo
   Schedule schedule = first;
   Recipe& recipe = schedule.recipe;
   schedule.on_lines = schedule.line_ends = schedule.on_boundary = 0;
-  recipe.start = {.kind = CvtStart::Kind::points};
+  recipe.start = {.kind = CvtStart::Kind::points, .insertion_rounds = rounds};
   recipe.stop.well_centred = false;
   const Eigen::Index n = coarse.points.cols();
   if (recipe.surface.is_bounded()) {

@@ -168,6 +168,15 @@ TEST_CASE("a multimesh follows a density at every level") {
   CHECK(again.parents == made.parents);
 }
 
+TEST_CASE("levels follow a density that the coarsest does not resolve") {
+  const Density steep = tanh_bump({0, -0.8, 0.6}, 0.5, 0.2, 1.0 / 4096);
+  const Multimesh made = multimesh(4, {.resolution = steep}, 42);
+  check_laws(made);
+  const Mesh& mesh = made.meshes.back();
+  const DoubleVector widths = evaluate(steep, mesh.points).array().pow(-0.25);
+  check_bins(area_ratios(mesh, widths), widths, 6, 0.07); // by bisections alone 0.1
+}
+
 TEST_CASE("a multimesh of a part of the sphere ends at its boundary, at every level") {
   const Surface region = circle({1, 0.2, 0.5}, 0.35);
   const Multimesh made = multimesh(3, {.resolution = Widths(60), .surface = region});
@@ -222,6 +231,10 @@ TEST_CASE("what a multimesh refuses, in one line") {
   CHECK(refused([] {
           multimesh(3, {.resolution = Widths(3000)});
         }).find("leave 3 at the coarsest") != std::string::npos);
+  const Surface strip = box(-0.7, 0.77, 1.05, 0.87);
+  CHECK(refused([&] {
+          multimesh(3, {.resolution = Widths(100), .surface = strip});
+        }).find("give fewer levels or more nodes") != std::string::npos);
   CHECK(refused([] { multimesh(3, Recipe{}); }).find("there is no number of nodes") == 0);
   CHECK(refused([] {
           multimesh(13, {.resolution = gentle_bump()}, 642);
