@@ -140,7 +140,8 @@ TEST_CASE("help knows the words of modellers, and names options, topics and page
         "remap",    "weights",    "scrip",        "hexagons",  "plane",      "periodic",
         "voronoi",  "lloyd",      "radius",       "mars",      "errors",     "gebco",
         "converge", "licence",    "boundary",     "box",       "nesting",    "icosahedral",
-        "rivers",   "mpas-tools", "zoom",         "namelist",  "manual",     "reproducible"}) {
+        "rivers",   "mpas-tools", "zoom",         "namelist",  "manual",     "reproducible",
+        "multimesh"}) {
     CAPTURE(word);
     const std::string text = help_text(bench, "help " + word);
     const std::vector<std::string> lines = lines_of(text);

@@ -139,6 +139,14 @@ constexpr const char* python =
 There are also libraries for C++, C and Fortran.
 )";
 
+constexpr const char* multimesh =
+    R"(Nested nodes and edges for graph networks, in Python and C++.
+
+  import calotte
+  mesh = calotte.multimesh(6)           # of an icosahedron; with cell_width= by widths
+  edges = mesh.edges()                  # 2 x m, of all levels, as graph packages take them
+)";
+
 constexpr const char* install =
     R"(A wheel for Python, a folder, Debian packages, an image, or the sources.
 
@@ -377,6 +385,9 @@ const std::vector<Guide>& guides() {
       {"quality measure check-mesh obtuse angle valid verify", quality,
        "measures.md first-grid.md"},
       {"partitions metis graph decomposition graph.info gpmetis process", parts, "models.md"},
+      {"multimesh multi-mesh graphcast gencast anemoi gnn graph-network neural machine-learning ml "
+       "networkx pytorch torch",
+       multimesh, "graphs.md"},
       {"remap remapping regrid weight conservative field interpolation", remap, "interpolation.md"},
       {"conversion format ugrid scrip esmf exodus vtk gmsh icon schism adcirc sms hgrid fort.14 "
        "2dm",
