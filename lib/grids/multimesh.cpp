@@ -103,15 +103,23 @@ void require_recipe(const Recipe& recipe, std::int64_t coarsest) {
           coarsest, recipe.cells);
 }
 
-/// The number of nodes inside the boundary that the finest level has: of those on it a half.
-double whole_cells(const Recipe& recipe) {
-  if (recipe.cells != 0)
-    return static_cast<double>(recipe.cells);
+/// What determines the numbers of nodes.
+struct Demanded {
+  Density density;
+  double nodes = 0; ///< of the finest level; by widths those that have whole cells
+};
+
+Demanded demanded_of(const Recipe& recipe) {
+  const auto given = static_cast<double>(recipe.cells);
   const auto* const widths = std::get_if<Widths>(&recipe.resolution);
-  require(widths != nullptr, "there is no number of nodes; give that of the coarsest or the finest "
-                             "level, or cell widths");
-  return implied_cells(width_field(widths->on_sphere(recipe.radius_km), recipe.surface),
-                       recipe.surface, recipe.radius_km);
+  require(widths != nullptr || given != 0,
+          "there is no number of nodes; give that of the coarsest or the finest level, or cell "
+          "widths");
+  if (widths == nullptr)
+    return {std::get<Density>(recipe.resolution), given};
+  const WidthField field = width_field(widths->on_sphere(recipe.radius_km), recipe.surface);
+  return {density_of(field),
+          given != 0 ? given : implied_cells(field, recipe.surface, recipe.radius_km)};
 }
 
 std::int64_t in_range(double nodes, const Recipe& recipe, int finest) {
@@ -127,18 +135,12 @@ std::int64_t in_range(double nodes, const Recipe& recipe, int finest) {
 /// The number of nodes of level 0, from which bisections lead to about that of the finest.
 std::int64_t choose_coarsest(const Recipe& recipe, int finest) {
   const Surface& surface = recipe.surface;
-  const double parts = std::ldexp(1, 2 * finest), given = whole_cells(recipe);
+  const auto [density, given] = demanded_of(recipe);
+  const double parts = std::ldexp(1, 2 * finest);
   if (!surface.is_bounded()) {
     const double poles = surface.is_sphere() ? 2 : 0;
     return in_range((given - poles) / parts + poles, recipe, finest);
   }
-  const Density density = plan([&] { // of the widths
-                            Recipe any = recipe;
-                            any.cells = any.cells == 0 ? std::llround(given) : any.cells;
-                            any.boundary = Boundary::clip;
-                            return any;
-                          }())
-                              .density;
   // b generators on the boundary of level 0 are b 2^k on level k, and each has half a cell.
   std::int64_t n = in_range(std::max(given / parts, 4.0), recipe, finest), on_boundary = 0;
   for (int pass = 0; pass < 3; ++pass) {
@@ -252,16 +254,14 @@ using namespace grids_detail;
 Multimesh multimesh(int finest, const PointsRef& coarsest) {
   require_level(finest);
   require_room(Surface::sphere(), coarsest.cols(), finest);
-  const auto triangulated = [](const auto& points) {
-    return delaunay(points, Surface::sphere(), {.duplicates = Duplicates::refuse});
-  };
+  const DelaunayOptions options{.duplicates = Duplicates::refuse};
   Multimesh out;
-  add_level(out, triangulated(coarsest));
+  add_level(out, delaunay(coarsest, Surface::sphere(), options));
   add_parents(out, no_parents(coarsest.cols()));
   for (int level = 1; level <= finest; ++level) {
     Points3 points = bisect(out.meshes.back());
     add_parents(out, ends_of_midpoints(out.meshes.back(), points.cols() - out.points().cols()));
-    add_level(out, triangulated(std::move(points)));
+    add_level(out, delaunay(std::move(points), Surface::sphere(), options));
   }
   return out;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "generators/boundary.h"
+
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
@@ -181,6 +183,8 @@ TEST_CASE("a multimesh of a part of the sphere ends at its boundary, at every le
   const Surface region = circle({1, 0.2, 0.5}, 0.35);
   const Multimesh made = multimesh(3, {.resolution = Widths(60), .surface = region});
   check_laws(made);
+  for (const CvtReport& report : made.reports)
+    CHECK(report.off_boundary == 0);
   for (const Mesh& mesh : made.meshes) {
     CAPTURE(mesh.points.cols());
     const IdLists loops = boundary_loops(mesh);
@@ -203,8 +207,38 @@ TEST_CASE("a multimesh of a part of the sphere ends at its boundary, at every le
   }
 }
 
+TEST_CASE("generators of a boundary are nested, and those between them halve the gaps") {
+  const Surface disc = circle({1, 0.2, 0.5}, 0.35),
+                hole = Surface::plane().within(
+                    {(DoubleMatrix(2, 4) << 0, 3, 3, 0, 0, 0, 3, 3).finished(),
+                     (DoubleMatrix(2, 4) << 1, 1, 2, 2, 1, 2, 2, 1).finished()});
+  for (const Surface& surface : {disc, hole}) {
+    const auto levels = generators_detail::halved_boundary_points(surface, 300, {}, 3);
+    REQUIRE(levels.size() == 4);
+    CHECK(levels[0].points == boundary_points(surface, 300));
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+      const auto &coarse = levels[k], &fine = levels[k + 1];
+      const auto b = static_cast<std::int32_t>(coarse.points.cols());
+      REQUIRE(fine.points.cols() == 2 * b);
+      CHECK(fine.points.leftCols(b) == coarse.points);
+      for (std::int32_t i = 0; i < b; ++i) {
+        const std::int32_t middle = fine.next[i];
+        REQUIRE(middle >= b);
+        REQUIRE(fine.next[middle] == coarse.next[i]);
+        const double before = (fine.points.col(middle) - fine.points.col(i)).norm(),
+                     after = (fine.points.col(coarse.next[i]) - fine.points.col(middle)).norm();
+        REQUIRE(std::abs(after / before - 1) < 0.02);
+      }
+    }
+  }
+  CHECK(generators_detail::halved_boundary_points({}, 300, {}, 2).back().points.cols() == 0);
+}
+
 TEST_CASE("multimeshes of planes") {
   check_laws(multimesh(2, {.cells = 1600, .surface = Surface::periodic({2, 1})}));
+  check_laws(multimesh(2, {.cells = 1600,
+                           .surface = Surface::plane().within(
+                               {(DoubleMatrix(2, 4) << 0, 2, 2, 0, 0, 0, 1, 1).finished()})}));
 }
 
 TEST_CASE("what a multimesh refuses, in one line") {
