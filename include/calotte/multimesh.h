@@ -65,7 +65,8 @@ Multimesh multimesh(int finest, const PointsRef& coarsest = bisected_icosahedron
 ///        It has no limited area, walls or lines, nor points to start from.
 /// \param coarsest the number of nodes of level 0, in place of a number of cells; 0, the default:
 ///        follows from the finest level.
-/// \param options state has no effect; progress sees the runs one after the other.
+/// \param options state has no effect. progress sees the runs of the levels one after the other;
+///        ProgressReply::stop ends that of a level.
 /// \throws Error invalid_argument for a level out of range, for two numbers of nodes, and where
 ///         level 0 has too few nodes or the finest more than 2^30; as make_grid().
 Multimesh multimesh(int finest, const Recipe& recipe, std::int64_t coarsest = 0,

@@ -161,6 +161,23 @@ def test_missing_packages_are_named(module):
     assert last.startswith("ImportError: to_") and last.endswith(f"install it, on Debian python3-{module}")
 
 
+def test_progress_of_each_level():
+    seen = []
+    made = calotte.multimesh(1, density="x4", coarsest=200, progress=lambda now: seen.append(now["cells"]))
+    assert set(seen) >= {200, 794} and all(made.converged)
+    with pytest.warns(UserWarning, match="level 0 did not converge"):
+        calotte.multimesh(1, density="x4", coarsest=200, progress=lambda now: True)
+
+
+def test_missing_memory_is_one_line():
+    resource = pytest.importorskip("resource")
+    program = "import calotte; calotte.multimesh(10)"
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False,
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (3 << 29, 3 << 29)))
+    assert run.stderr.strip().splitlines()[-1] == ("MemoryError: the nodes and edges need more memory than there is; "
+                                                   "give fewer levels or nodes")
+
+
 @pytest.mark.parametrize("make, words", [
     (lambda six: calotte.multimesh(-1), "the finest level is -1; give 0 to 13"),
     (lambda six: calotte.multimesh(14), "the finest level is 14; give 0 to 13"),

@@ -33,6 +33,13 @@ def _listed(lists):
     return np.repeat(np.arange(len(lists)), np.diff(lists.begin)), lists.ids
 
 
+def _made(make, *given):
+    try:
+        return Multimesh(**make(*given))
+    except MemoryError:
+        raise MemoryError("the nodes and edges need more memory than there is; give fewer levels or nodes") from None
+
+
 @dataclass(frozen=True, repr=False, eq=False)
 class Multimesh:
     """Nodes of several levels, of which each has those of the level before as its first ones, of multimesh().
@@ -165,7 +172,8 @@ def multimesh(levels: int, *, coarsest: int | None = None, cells: int | None = N
     cells: the number of nodes of the finest level, which has about as many. Without it and coarsest,
         it follows from the widths.
     points: the nodes of level 0, as of delaunay().
-    density, surface, seed, regions, progress, earth_radius: as for cvt().
+    density, surface, seed, regions, earth_radius: as for cvt().
+    progress: as for cvt(), of the run of each level; True ends that of the level.
     cell_width: of the finest level, as for cvt(); with coarsest or cells its ratios count.
     Returns a Multimesh. Raises Error.
 
@@ -189,14 +197,14 @@ def multimesh(levels: int, *, coarsest: int | None = None, cells: int | None = N
             nodes = _calotte.bisected_icosahedron(0)
         else:
             nodes = _calotte.geodesic_sphere(_functions._count(coarsest, "the number of nodes of the coarsest level"))
-        return Multimesh(**_calotte.bisected_multimesh(finest, nodes))
+        return _made(_calotte.bisected_multimesh, finest, nodes)
     if points is not None:
         raise Error("points are bisected as they are, and follow no density, widths or surface; leave one of them out")
     recipe = _functions._recipe(cells, density, cell_width, surface, earth_radius=earth_radius, seed=seed)
     first = 0 if coarsest is None else _functions._count(coarsest, "the number of nodes of the coarsest level")
     if coarsest is not None and first < 1:
         raise Error(f"the number of nodes of the coarsest level is {first}; give a larger one")
-    made = Multimesh(**_calotte.multimesh(finest, recipe, first, regions, _functions._reporting(progress)))
+    made = _made(_calotte.multimesh, finest, recipe, first, regions, _functions._reporting(progress))
     for mesh in made.meshes:
         if cell_width is not None and mesh.surface.is_sphere:
             mesh._earth_radius = earth_radius
