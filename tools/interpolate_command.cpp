@@ -5,6 +5,7 @@
 #include "options/choice.h"
 #include "options/delaunay_options.h"
 #include "options/files.h"
+#include "options/format_options.h"
 #include "options/mesh_source.h"
 #include "options/warning.h"
 #include "run/progress.h"
@@ -28,15 +29,23 @@
 namespace calotte::tools {
 namespace {
 
+/// Whether a source or a target is a text of positions, not a size or a file of cells.
+bool is_text(const std::string& word) { return !raster_of(word) && is_positions(word); }
+
 struct InterpolateRequest {
   std::string source, mesh, target, output, weights, apply;
   std::vector<std::string> fields, categories, numbers;
-  std::vector<FieldIndex> at; ///< of dimensions of the fields
+  std::vector<std::string> position; ///< columns of text
+  bool plane = false;                ///< whether text is in a plane
+  std::vector<FieldIndex> at;        ///< of dimensions of the fields
   Interpolation method = Interpolation::conservative;
-  std::string method_word = "conservative";
+  std::string method_word; ///< as given, or the default
   WeightsFormat format = WeightsFormat::esmf;
   double min_cover = 0;
   std::optional<int> threads;
+
+  bool scattered() const { return is_text(source); }
+  bool to_positions() const { return is_text(target); }
 };
 
 /// Refuses one number where the size of a raster is meant, and doubts columns and rows that are
@@ -56,14 +65,38 @@ void require_size(const std::string& target) {
   }
 }
 
+/// Refuses options of grids where there are positions, and the reverse.
+void require_options(const InterpolateRequest& request) {
+  const auto refuse_with = [&](bool given, const char* option, bool with, const char* what) {
+    if (given && with)
+      refuse(message("{} does not apply to {}; leave it out", option, what));
+  };
+  const bool scattered = request.scattered(), text = scattered || request.to_positions();
+  refuse_with(!request.weights.empty(), "--weights", text, "positions, which have no cells");
+  refuse_with(!request.apply.empty(), "--apply", text, "positions, which have no cells");
+  refuse_with(!request.mesh.empty(), "--mesh", scattered, "a text of values");
+  refuse_with(!request.at.empty(), "--at", scattered, "a text of values");
+  refuse_with(!request.categories.empty(), "--categories", scattered, "a text of values");
+  refuse_with(!request.numbers.empty(), "--numbers", scattered, "a text of values");
+  refuse_with(request.min_cover > 0, "--min-cover", text, "positions, which have no cells");
+  refuse_with(!request.position.empty(), "--position", !text, "meshes and rasters");
+  refuse_with(request.plane, "--plane", !text, "meshes and rasters, which know their surface");
+  if (request.method_word == "conservative" && text)
+    refuse("positions have no cells to share areas; give linear, nearest or natural as --method");
+}
+
 /// Checks all options that can fail, before any input is read.
 void require_request(const InterpolateRequest& request) {
   require_size(request.target);
+  require_options(request);
   if (request.output.empty() && request.weights.empty())
     refuse("nothing to write; give -o FILE for fields, --weights FILE for weights, or both");
   if (!request.output.empty() && raster_of(request.target) && !request.output.ends_with(".nc"))
     refuse_path(request.output, "a raster is written to NetCDF; give a name that ends in .nc");
-  if (!request.output.empty())
+  if (!request.output.empty() && request.to_positions())
+    require_storable(request.output, FieldGrid{.name = request.target, .positions = Positions()},
+                     {});
+  else if (!request.output.empty())
     require_field_format(request.output);
   if (!request.weights.empty() && !request.weights.ends_with(".nc"))
     refuse_path(request.weights, "weights are written to NetCDF; give a name that ends in .nc");
@@ -79,9 +112,26 @@ FieldGrid raster_or_mesh(const std::string& word, FieldChoice choice,
 }
 
 FieldGrid source_of(const InterpolateRequest& request) {
+  if (request.scattered())
+    return read_positions(
+        request.source,
+        {.plane = request.plane,
+         .position = request.position,
+         .fields = request.fields.empty() ? std::nullopt : std::optional(request.fields)});
   const FieldChoice choice = request.output.empty() ? FieldChoice::none : FieldChoice::all;
   return request.mesh.empty() ? raster_or_mesh(request.source, choice, request.at)
                               : read_field_grid(request.source, request.mesh, choice, request.at);
+}
+
+FieldGrid target_of(const InterpolateRequest& request) {
+  if (!request.to_positions())
+    return raster_or_mesh(request.target, FieldChoice::none);
+  // columns that are named for the source are those of the target, too, if there are such
+  return read_positions(
+      request.target,
+      {.plane = request.plane,
+       .position = request.scattered() ? std::vector<std::string>() : request.position,
+       .fields = std::vector<std::string>()});
 }
 
 // ---- Fields
@@ -237,17 +287,65 @@ std::string describe_weights(const InterpolateRequest& request, const FieldGrid&
   if (!request.weights.empty())
     lines += message("{}: {} weights from {} to {} cells\n", request.weights,
                      weights.weights.nonZeros(), weights.weights.cols(), weights.weights.rows());
-  if (!request.output.empty())
-    lines += message("{}: {} at {}, {}\n", request.output, listed(field_names(fields)),
-                     counted(weights.weights.rows(), "cell"),
-                     request.apply.empty() ? request.method_word : "by " + request.apply);
   return lines;
+}
+
+/// What scattered values gave: numbers that are missing, and what is written.
+std::string describe_scattered(const InterpolateRequest& request, const FieldGrid& target,
+                               const std::vector<MeshField>& fields) {
+  std::string lines;
+  const char* const where = target.positions ? "position" : "cell";
+  std::int64_t before = 0;
+  for (const MeshField& field : fields) {
+    const std::int64_t lacks = field.values.array().isNaN().count();
+    if (lacks > 0 && lacks != before) // most fields have values at the same positions
+      lines += message("{}: {}: {} of {} {} outside of the triangles between the positions of {}, "
+                       "and missing\n",
+                       request.output, field.name, lacks, counted(target.size(), where),
+                       lacks == 1 ? "is" : "are", request.source);
+    before = lacks;
+  }
+  return lines;
+}
+
+std::string written_line(const InterpolateRequest& request, const FieldGrid& target,
+                         const std::vector<MeshField>& fields) {
+  return message("{}: {} at {}, {}\n", request.output, listed(field_names(fields)),
+                 counted(target.size(), target.positions ? "position" : "cell"),
+                 request.apply.empty() ? request.method_word : "by " + request.apply);
 }
 
 std::string history_of(const InterpolateRequest& request) {
   return message(
       "calotte " CALOTTE_VERSION " interpolate: {} {} {}", request.source, request.target,
       request.apply.empty() ? "--method " + request.method_word : "--apply " + request.apply);
+}
+
+/// Interpolates scattered values. \returns what to say of them.
+std::string interpolate_text(const InterpolateRequest& request, const FieldGrid& source,
+                             const FieldGrid& target, std::vector<MeshField>& fields) {
+  ScatteredFields found = interpolate_scattered(source, target, request.method);
+  if (found.merged > 0)
+    warn(message("{}: {} had the position of an earlier row; the values at one position are "
+                 "averaged",
+                 request.source, counted(found.merged, "row")));
+  fields = std::move(found.fields);
+  return describe_scattered(request, target, fields);
+}
+
+/// Interpolates by weights, and writes these if they are asked for.
+std::string interpolate_cells(const InterpolateRequest& request, const FieldGrid& source,
+                              const FieldGrid& target, std::vector<MeshField>& fields,
+                              Progress& progress) {
+  const GridWeights weights = weights_of(request, source, target);
+  for (MeshField& field : fields)
+    field = interpolate(weights, field, request.min_cover);
+  if (!request.weights.empty()) {
+    progress.writing(request.weights);
+    write_weights(request.weights, weights, source, target, request.method, request.format,
+                  history_of(request));
+  }
+  return describe_weights(request, source, weights, fields);
 }
 
 void run(const InterpolateRequest& request) {
@@ -258,28 +356,22 @@ void run(const InterpolateRequest& request) {
     progress.stage("reading " + request.source);
     FieldGrid source = source_of(request);
     std::vector<MeshField> fields;
-    if (!request.output.empty())
+    if (!request.output.empty() && !request.scattered())
       fields = chosen_fields(request, source);
     for (MeshField& field : fields)
       lines += decide_categories(request, field);
     progress.stage("reading " + request.target);
-    const FieldGrid target = raster_or_mesh(request.target, FieldChoice::none);
+    const FieldGrid target = target_of(request);
     if (!request.output.empty())
-      require_storable(request.output, target, fields);
+      require_storable(request.output, target, request.scattered() ? source.fields : fields);
     progress.stage(message("weights from {} to {}", request.source, request.target));
-    const GridWeights weights = weights_of(request, source, target);
-    for (MeshField& field : fields)
-      field = interpolate(weights, field, request.min_cover);
-    if (!request.weights.empty()) {
-      progress.writing(request.weights);
-      write_weights(request.weights, weights, source, target, request.method, request.format,
-                    history_of(request));
-    }
+    lines += request.scattered() ? interpolate_text(request, source, target, fields)
+                                 : interpolate_cells(request, source, target, fields, progress);
     if (!request.output.empty()) {
       progress.writing(request.output);
       write_fields(request.output, target, fields, history_of(request), source.name);
+      lines += written_line(request, target, fields);
     }
-    lines += describe_weights(request, source, weights, fields);
   }
   std::cout << lines;
 }
@@ -293,9 +385,19 @@ void add_field_options(CLI::App& command, InterpolateRequest& request) {
       .add_option("--mesh", request.mesh,
                   "Mesh of the fields in SOURCE, where that holds none, such as a model's history.")
       ->type_name("FILE");
+  command
+      .add_option("--position", request.position,
+                  "Columns of the position in a text, by name or number, such as 2,3. Of two texts "
+                  "SOURCE. Default: those that a header names, or the first two.")
+      ->type_name("COLUMNS")
+      ->delimiter(',')
+      ->expected(2);
+  command.add_flag("--plane", request.plane,
+                   "Positions in text are x y of a plane, not longitude and latitude");
   add_at(command, request.at);
   add("--fields", request.fields,
-      "Names of the fields, with commas between them. Default: all at cells.");
+      "Names of the fields, with commas between them; of a text its columns, by name or number. "
+      "Default: all.");
   command
       .add_option("--min-cover", request.min_cover,
                   "Least part of a cell, 0 to 1, that valid values must cover; the cell is missing "
@@ -329,28 +431,37 @@ void add_weights_options(CLI::App& command, InterpolateRequest& request) {
       ->excludes("--weights");
 }
 
+void use_default_method(InterpolateRequest& request) {
+  const bool text = request.scattered() || request.to_positions();
+  request.method = text ? Interpolation::linear : Interpolation::conservative;
+  request.method_word = text ? "linear" : "conservative";
+}
+
 } // namespace
 
 void add_interpolate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "interpolate", "Takes fields from one grid to another: meshes and rasters of longitude and "
-                     "latitude.");
+      "interpolate", "Takes fields from one grid to another: meshes, rasters of longitude and "
+                     "latitude, and scattered positions.");
   auto request = std::make_shared<InterpolateRequest>();
   command
       ->add_option("SOURCE,--source", request->source,
-                   "Mesh with fields at its cells, or raster: NetCDF with lat(lat) and lon(lon).")
+                   "Mesh with fields at its cells, raster: NetCDF with lat(lat) and lon(lon), or "
+                   "text with positions and values on each line.")
       ->type_name("FILE")
       ->required();
   command
-      ->add_option("TARGET,--target", request->target,
-                   "Mesh or raster whose cells get the fields, or the size of a global raster, "
-                   "such as 720x360.")
+      ->add_option(
+          "TARGET,--target", request->target,
+          "Mesh or raster whose cells get the fields, text with a position on each line, or "
+          "the size of a global raster, such as 720x360.")
       ->type_name("FILE|SIZE")
       ->required();
   command
       ->add_option("-o,--output", request->output,
                    "File of the fields. NetCDF (.nc) holds them with the places of the cells, in "
-                   "the order of TARGET; a name of another mesh format holds the mesh, too.")
+                   "the order of TARGET; a name of another mesh format holds the mesh, too. For "
+                   "positions also text (.csv, .txt).")
       ->type_name("FILE");
   add_choice<Interpolation>(
       *command, "--method", request->method,
@@ -361,7 +472,8 @@ void add_interpolate(CLI::App& app) {
       "How: conservative, linear, nearest or natural. conservative: the mean over the cell, by "
       "shared areas, which keeps the integral. linear: on "
       "triangles between centres, bilinear in a raster. nearest: the value of the cell that holds "
-      "the centre. natural: natural neighbours, of meshes.");
+      "the centre, or of the nearest position. natural: natural neighbours, of meshes and "
+      "positions. Default: conservative, or linear where SOURCE or TARGET is a text.");
   add_field_options(*command, *request);
   add_weights_options(*command, *request);
   command->get_option("--apply")->excludes("--method");
@@ -372,10 +484,13 @@ void add_interpolate(CLI::App& app) {
             .examples = {
                 "calotte interpolate topography.nc grid.nc -o heights.nc --fields z",
                 "calotte interpolate history.nc 720x360 --mesh grid.nc -o map.nc --fields t2m,ssh",
+                "calotte interpolate stations.csv 720x360 --method natural -o map.nc",
                 "calotte interpolate grid.nc 720x360 --weights map.nc"}});
   command->callback([command, request] {
     if (const CLI::Option* const method = command->get_option("--method"); method->count() > 0)
       request->method_word = method->as<std::string>();
+    else
+      use_default_method(*request);
     with_threads(request->threads, [&] { run(*request); });
   });
 }

@@ -8,6 +8,7 @@
 #include <calotte/remap.h>
 
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,22 +17,59 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// A grid that carries fields: a mesh, or a raster.
+/// Positions without cells, such as those of stations.
+struct Positions {
+  Surface surface = {}; ///< the sphere, or a plane
+  Points3 points = {};  ///< 3 x n: directions, or points of the plane with z = 0
+  /// 2 x n, the same as files have them: longitudes and latitudes in degrees, or x and y.
+  Points2 coordinates = {};
+};
+
+/// What carries fields: a mesh, a raster, or positions.
 struct FieldGrid {
-  std::string name;                      ///< of the file, for messages
-  std::optional<LonLatBoxes> boxes = {}; ///< of a raster
-  MeshFile mesh = {};                    ///< where there are no boxes; without its fields
-  std::vector<MeshField> fields = {};    ///< at cells
-  std::vector<std::string> ignored = {}; ///< variables that are no such field
+  std::string name;                        ///< of the file, for messages
+  std::optional<LonLatBoxes> boxes = {};   ///< of a raster
+  std::optional<Positions> positions = {}; ///< where there are no cells
+  MeshFile mesh = {};                      ///< where there is neither; without its fields
+  std::vector<MeshField> fields = {};      ///< at cells, or at positions as if these were cells
+  std::vector<std::string> ignored = {};   ///< variables that are no such field
   /// Fields that FieldChoice::scalars leaves out, without values; of a file without its mesh alone.
   std::vector<MeshField> not_scalars = {};
   /// n: 1 for cells that count, 0 for those that the mask of SCRIP (grid_imask) or ESMF
   /// (elementMask) leaves out. Empty where all count.
   Ids mask = {};
 
-  /// The number of cells.
+  /// The number of cells, or of positions.
   std::int64_t size() const;
 };
+
+/// The columns of a text of positions and values. A column is chosen by its name in the header, in
+/// any case where no other fits, or by its number, from 1 on.
+struct ColumnChoice {
+  bool plane = false; ///< whether positions are x y of a plane, or longitude and latitude
+  /// Two columns. Default: those that the header names lon or longitude and lat or latitude, or x
+  /// and y; without a header the first two.
+  std::vector<std::string> position = {};
+  /// Columns of values. Default: all others that the header names; without a header all others.
+  std::optional<std::vector<std::string>> fields = {};
+};
+
+/// Reads positions and values as text, a row on each line. Commas, semicolons, bars or tabs
+/// separate columns, or else blanks. `#` starts a comment; blank lines are ignored. A line without
+/// numbers before the rows is a header, and so is a comment that names the position and as many
+/// columns as there are. An empty column, NaN and NA are missing values. All rows have the same
+/// number of columns; those that are not chosen may hold any text.
+///
+/// Fields have the names of the header, or column3, column4 and so on.
+/// \param name the name of the stream in messages.
+/// \throws Error parse (index() is the 1-based line) for another number of columns, for text that
+///         is not a number, for a latitude out of range and for a position that is missing; parse
+///         for a header without a position, a column that there is not, of columns without a header
+///         a first one that counts the lines or is no longitude, or a file without rows; file.
+FieldGrid read_positions(std::istream& in, const std::string& name,
+                         const ColumnChoice& choice = {});
+/// The same from a file.
+FieldGrid read_positions(const std::string& path, const ColumnChoice& choice = {});
 
 /// Reads a mesh file of any format, see read_mesh_file(), or a raster: a NetCDF file with the
 /// coordinate variables lat(lat) and lon(lon), latitude and longitude, or others whose
@@ -83,11 +121,37 @@ Polygons cells_of(const FieldGrid& grid);
 ///   at the centre of the target's cell. Cells outside of the source have no weights.
 /// - natural_neighbours: from meshes.
 ///
+/// A target of positions has rows for these; it has no conservative weights. A source has cells.
+///
 /// Areas are set only for conservative weights.
-/// \throws Error invalid_argument for grids on different surfaces; as conservative_weights(),
-///         interpolation_weights(), cells_of().
+/// \throws Error invalid_argument for grids on different surfaces, for a source of positions and
+///         conservative weights to them; as conservative_weights(), interpolation_weights(),
+///         cells_of().
 GridWeights interpolation_weights(const FieldGrid& source, const FieldGrid& target,
                                   Interpolation kind);
+
+/// Fields that scattered positions had, at a target.
+struct ScatteredFields {
+  std::vector<MeshField> fields; ///< in the order of the source
+  /// The number of rows of the source whose value was averaged with that of an earlier row.
+  std::int64_t merged = 0;
+};
+
+/// Takes fields from scattered positions to the centres of a target's cells, or to its positions,
+/// by the Delaunay triangulation of the positions, see interpolation_weights() of a mesh.
+///
+/// Values that are NaN are missing: their positions count for the other fields alone. Fields with
+/// values at the same positions share a triangulation. Positions in the same direction, or at the
+/// same point, are one, whose value is the mean. But for `nearest`, the result is NaN outside of
+/// the triangles: those of positions in a hemisphere, or in a plane, cover their convex hull. The
+/// result has the same bits for any order of the positions and any number of threads.
+/// \param source positions and fields of one value each. \param kind not conservative.
+/// \throws Error invalid_argument for another source or kind, for another surface of the target and
+///         a field that has not one value for each position or has none; for a field with its name:
+///         too_few_sites for fewer than 3 distinct positions, degenerate for positions on one great
+///         circle or line; not_finite and zero_vector, with the index of the position.
+ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& target,
+                                      Interpolation kind = Interpolation::linear);
 
 /// A format of files of weights, NetCDF.
 enum class WeightsFormat {
@@ -118,7 +182,9 @@ void require_storable(const std::string& path, const FieldGrid& grid,
 /// Writes fields of a grid to a NetCDF file: of a raster with its coordinates and bounds; of a mesh
 /// with the longitudes and latitudes, or x and y, of its cells, in the order of its file. The
 /// dimension of the cells has the name that the mesh's format gives it, such as nCells. Another
-/// suffix writes the mesh with its fields, see write().
+/// suffix writes the mesh with its fields, see write(). Of positions it writes NetCDF (.nc), or
+/// text with a header, the positions and a column for each field: .csv with commas, .txt with
+/// blanks, and NaN where there is no value.
 /// \param history attribute; empty for none.
 /// \param source NetCDF file that the fields are from; empty for none. Its data on their other
 ///        dimensions are copied to the file: coordinates such as time and lev with bounds and

@@ -9,6 +9,7 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -94,6 +95,18 @@ bool holds_points(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
   return format ? *format != Format::triangles && *format != Format::mpi_scvt
                 : is_netcdf_file(path);
+}
+
+bool is_positions(const std::string& path) {
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  const std::string suffix = name.extension();
+  const auto has_name = [&](const FormatInfo& info) { // also of formats that are only read
+    return std::ranges::find(info.names, suffix) != info.names.end();
+  };
+  const bool is_mpi_scvt =
+      name.string().starts_with("SaveVertices") || name.string().starts_with("SaveTriangles");
+  return !holds_points(path) && !is_mpi_scvt &&
+         (suffix == ".txt" || suffix.empty() || std::ranges::none_of(formats(), has_name));
 }
 
 bool holds_triangles(const std::string& path) { return format_of_name(path) == Format::triangles; }

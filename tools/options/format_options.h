@@ -37,6 +37,10 @@ std::string names_of_read_meshes();
 /// as MPI-SCVT's SaveVertices.
 bool holds_points(const std::string& path);
 
+/// True if a file is text of positions, as far as its name and its first bytes determine it: of no
+/// format of meshes, but for other text than MPI-SCVT's files.
+bool is_positions(const std::string& path);
+
 /// True if a file of this name holds triangles alone, as far as the name determines it.
 bool holds_triangles(const std::string& path);
 

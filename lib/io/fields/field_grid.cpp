@@ -11,6 +11,7 @@
 #include "io/cells/polygons.h"
 #include "io/command.h"
 #include "io/fields/cell_dimension.h"
+#include "io/fields/centres.h"
 #include "io/fields/raster_grid.h"
 #include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
@@ -37,8 +38,12 @@ namespace {
 using base_detail::require;
 
 Surface surface_of(const FieldGrid& grid) {
-  return grid.boxes ? Surface::sphere() : grid.mesh.surface();
+  return grid.boxes       ? Surface::sphere()
+         : grid.positions ? grid.positions->surface
+                          : grid.mesh.surface();
 }
+
+} // namespace
 
 void require_one_surface(const FieldGrid& source, const FieldGrid& target) {
   const auto words = [](const FieldGrid& grid) {
@@ -53,19 +58,27 @@ void require_one_surface(const FieldGrid& source, const FieldGrid& target) {
           target.name, words(target), words(source) == words(target) ? " of another period" : "");
 }
 
+namespace {
+
 std::int64_t count_cells(const MeshFile& mesh) {
   return mesh.polygons ? mesh.polygons->size() : mesh.mesh ? mesh.mesh->points.cols() : 0;
 }
 
-/// The centres of cells.
+} // namespace
+
 Points3 centres_of(const MeshFile& mesh) {
   if (!mesh.polygons)
     return mesh.mesh->points;
   return mesh.polygons->centres.cols() > 0 ? mesh.polygons->centres : centroids_of(*mesh.polygons);
 }
+
 Points3 centres_of(const FieldGrid& grid) {
-  return grid.boxes ? nodes(*grid.boxes) : centres_of(grid.mesh);
+  return grid.boxes       ? nodes(*grid.boxes)
+         : grid.positions ? grid.positions->points
+                          : centres_of(grid.mesh);
 }
+
+namespace {
 
 /// The cell that contains each position; -1 without one. Sites without cells, at corners of
 /// triangles, count for their triangles.
@@ -288,7 +301,9 @@ void leave_masked_out(const FieldGrid& source, const FieldGrid& target, GridWeig
 } // namespace io_detail
 
 std::int64_t FieldGrid::size() const {
-  return boxes ? boxes->size() : io_detail::count_cells(mesh);
+  return boxes       ? boxes->size()
+         : positions ? positions->points.cols()
+                     : io_detail::count_cells(mesh);
 }
 
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice,
@@ -412,6 +427,11 @@ GridWeights interpolation_weights(const FieldGrid& source, const FieldGrid& targ
                                   Interpolation kind) {
   using namespace io_detail;
   require_one_surface(source, target);
+  base_detail::require(!source.positions,
+                       "{} has positions without cells; use interpolate_scattered()", source.name);
+  base_detail::require(
+      !target.positions || kind != Interpolation::conservative,
+      "{} has positions without cells; give linear, nearest or natural as the method", target.name);
   GridWeights out;
   if (kind == Interpolation::conservative) {
     out = conservative(source, target);

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/require.h"
+#include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
-#include "io/cells/centroids.h"
+#include "io/bytes/text.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/written_fields.h"
 #include "io/command.h"
 #include "io/fields/carried.h"
 #include "io/fields/cell_dimension.h"
+#include "io/fields/centres.h"
 
 #include <calotte/field_grid.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -121,33 +125,105 @@ void write_raster(const std::string& path, const LonLatBoxes& boxes,
   file.commit();
 }
 
-// ---- Meshes
+// ---- Meshes and positions
 
-void write_cells(const std::string& path, const FieldGrid& grid,
-                 const std::vector<MeshField>& fields, const std::vector<Carried>& carried,
-                 const WriteOptions& options) {
-  const Points3 centres = !grid.mesh.polygons ? grid.mesh.mesh->points
-                          : grid.mesh.polygons->centres.cols() > 0
-                              ? grid.mesh.polygons->centres
-                              : centroids_of(*grid.mesh.polygons);
-  const bool sphere = grid.mesh.surface().is_sphere();
+/// \param first, second longitudes and latitudes, or x and y.
+void write_points_with_fields(const std::string& path, bool sphere, const std::string& dimension,
+                              std::int64_t size, const NetcdfWriter::Fill<double>& first,
+                              const NetcdfWriter::Fill<double>& second,
+                              const std::vector<MeshField>& fields,
+                              const std::vector<Carried>& carried, const WriteOptions& options) {
   NetcdfGridFile file(path, options, "CF-1.8");
-  const int cells = file.netcdf().dimension(cell_dimension(grid.mesh.format), grid.size());
+  const int cells = file.netcdf().dimension(dimension, size);
   if (sphere) {
     file.doubles(
         "lat", {cells},
         {{"units", std::string("degrees_north")}, {"standard_name", std::string("latitude")}},
-        latitudes_of(centres));
+        second);
     file.doubles(
         "lon", {cells},
         {{"units", std::string("degrees_east")}, {"standard_name", std::string("longitude")}},
-        longitudes_of(centres));
+        first);
   } else {
-    file.doubles("x", {cells}, {{"units", std::string("m")}}, coordinate_row(centres, 0));
-    file.doubles("y", {cells}, {{"units", std::string("m")}}, coordinate_row(centres, 1));
+    file.doubles("x", {cells}, {{"units", std::string("m")}}, first);
+    file.doubles("y", {cells}, {{"units", std::string("m")}}, second);
   }
   add_fields(file, fields, carried, {cells}, sphere ? "lat lon" : "x y");
   file.commit();
+}
+
+void write_cells(const std::string& path, const FieldGrid& grid,
+                 const std::vector<MeshField>& fields, const std::vector<Carried>& carried,
+                 const WriteOptions& options) {
+  const Points3 centres = centres_of(grid);
+  const bool sphere = grid.mesh.surface().is_sphere();
+  write_points_with_fields(path, sphere, cell_dimension(grid.mesh.format), grid.size(),
+                           sphere ? longitudes_of(centres) : coordinate_row(centres, 0),
+                           sphere ? latitudes_of(centres) : coordinate_row(centres, 1), fields,
+                           carried, options);
+}
+
+void write_positions(const std::string& path, const Positions& positions,
+                     const std::vector<MeshField>& fields, const std::vector<Carried>& carried,
+                     const WriteOptions& options) {
+  const auto row = [&](int k) {
+    return table<double>(
+        1, [&positions, k](std::int64_t i, std::int64_t) { return positions.coordinates(k, i); });
+  };
+  write_points_with_fields(path, positions.surface.is_sphere(), "position", positions.points.cols(),
+                           row(0), row(1), fields, carried, options);
+}
+
+// ---- Text
+
+/// A name as one column of a header.
+std::string column_name(std::string name) {
+  std::ranges::replace_if(
+      name,
+      [](char c) { return std::string_view(" \t\r\n,;|#\"'").find(c) != std::string_view::npos; },
+      '_');
+  return name;
+}
+
+void write_text(const std::string& path, const Positions& positions,
+                const std::vector<MeshField>& fields) {
+  const std::string_view between = suffix_of(path) == ".csv" ? "," : " ";
+  OutputFile file(path);
+  Writer out([&](std::string_view bytes) { file.append(bytes); });
+  const bool sphere = positions.surface.is_sphere();
+  out.text(sphere ? "lon" : "x").text(between).text(sphere ? "lat" : "y");
+  for (const MeshField& field : fields)
+    out.text(between).text(column_name(field.name));
+  out.text("\n");
+  for (Eigen::Index i = 0; i < positions.coordinates.cols(); ++i) {
+    out.number(positions.coordinates(0, i)).text(between).number(positions.coordinates(1, i));
+    for (const MeshField& field : fields)
+      if (out.text(between); std::isnan(field.values[i]))
+        out.text("NaN");
+      else
+        out.number(field.values[i]);
+    out.text("\n");
+  }
+  out.flush();
+  file.commit();
+}
+
+bool is_text(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".csv" || suffix == ".txt";
+}
+
+/// Requires fields that a text can hold.
+void require_text(const std::string& path, const std::vector<MeshField>& fields) {
+  require(is_text(path),
+          "{}: values at positions are written as text or NetCDF; give a name that ends in .csv, "
+          ".txt or .nc",
+          path);
+  for (const MeshField& field : fields)
+    require(field.count() == 1,
+            "{}: the field {} has several numbers for each position, and text has one; choose an "
+            "index of each dimension (--at), or write .nc",
+            path, field.name);
 }
 
 constexpr std::array<const char*, 6> own_names{"lat", "lon", "lat_bnds", "lon_bnds", "x", "y"};
@@ -189,6 +265,8 @@ void require_storable(const std::string& path, const FieldGrid& grid,
   using namespace io_detail;
   if (suffix_of(path) == ".nc")
     return require_free_names(path, fields);
+  if (grid.positions)
+    return require_text(path, fields);
   require(!grid.boxes, "{}: a raster is written to NetCDF; give a name that ends in .nc", path);
   WriteOptions options;
   options.fields = fields;
@@ -207,7 +285,9 @@ void write_fields(const std::string& path, const FieldGrid& grid,
   require_storable(path, grid, fields);
   WriteOptions options;
   options.history = history;
-  options.sphere_radius = grid.boxes ? 1 : grid.mesh.sphere_radius;
+  options.sphere_radius = grid.boxes || grid.positions ? 1 : grid.mesh.sphere_radius;
+  if (grid.positions && is_text(path))
+    return write_text(path, *grid.positions, fields);
   if (suffix_of(path) != ".nc") {
     options.fields = fields;
     write(path, grid.mesh, options);
@@ -217,6 +297,8 @@ void write_fields(const std::string& path, const FieldGrid& grid,
   const std::vector<Carried> carried = carried_from(source, fields, replace_names(named));
   if (grid.boxes)
     write_raster(path, *grid.boxes, named, carried, options);
+  else if (grid.positions)
+    write_positions(path, *grid.positions, named, carried, options);
   else
     write_cells(path, grid, named, carried, options);
 }

@@ -5,6 +5,7 @@
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 #include "io/shapes/row_parser.h"
+#include "io/shapes/text_parts.h"
 
 #include <calotte/read.h>
 #include <calotte/write.h>
@@ -19,51 +20,7 @@ using io_detail::LineReader;
 using io_detail::PointRows;
 using io_detail::RowParser;
 
-/// Whole lines, parsed by a task of their own.
-struct TextPart {
-  RowParser parser;
-  PointRows rows{};
-  std::int64_t before = 0; ///< number of lines of the text before them
-  std::int64_t lines = 0;  ///< their number
-  bool refused = false;
-};
-
-/// \throws Error parse.
-void parse(LineReader reader, TextPart& part) {
-  for (std::string_view line; reader.next(line);)
-    part.parser.parse(reader, line, part.rows);
-  part.lines = reader.number();
-}
-
-/// Parses whole lines, which follow those of the parser, in parallel. The parts before keep their
-/// memory for the next lines.
-/// \throws Error parse, of the first line that is refused.
-void parse_parts(LineReader& reader, std::string_view text, RowParser& parser,
-                 std::vector<TextPart>& parts) {
-  constexpr std::size_t part_bytes = std::size_t{1} << 18;
-  const std::vector<std::string_view> texts = io_detail::parts_of(text, part_bytes);
-  parts.resize(texts.size(), TextPart{parser});
-  base_detail::for_each_task(std::ssize(texts), [&](std::int64_t i) {
-    TextPart& part = parts[static_cast<std::size_t>(i)];
-    part.parser = parser.following();
-    part.rows.clear();
-    try {
-      parse(LineReader(texts[static_cast<std::size_t>(i)], reader.name()), part);
-    } catch (const Error&) {
-      part.refused = true; // its message would lack what the lines before decide
-    }
-  });
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    TextPart& part = parts[i];
-    if (part.refused) {
-      part = {parser};
-      parse(LineReader(texts[i], reader.name(), reader.number()), part); // throws
-    }
-    part.before = reader.number();
-    parser.append(part.parser);
-    reader.count_lines(part.lines);
-  }
-}
+using Part = io_detail::TextPart<RowParser, PointRows>;
 
 /// Gives `out` room for the points that the text may have. Eigen's conservativeResize() would not
 /// throw where there is no memory.
@@ -76,16 +33,16 @@ void make_room(std::int64_t points, PointLines& out) {
 }
 
 /// Appends the points of parts.
-void append(const std::vector<TextPart>& parts, const LineReader& reader, PointLines& out) {
+void append(const std::vector<Part>& parts, const LineReader& reader, PointLines& out) {
   std::vector<std::int64_t> begin;
   auto points = std::ssize(out.lines);
-  for (const TextPart& part : parts) {
+  for (const Part& part : parts) {
     begin.push_back(points);
     points += std::ssize(part.rows.lines);
   }
   if (points > out.points.cols()) // one line, the first, does not tell how long the others are
     make_room(points == 1 ? 1 : std::max(points, reader.estimate_all(points)), out);
-  for (const TextPart& part : parts)
+  for (const Part& part : parts)
     for (const std::int64_t line : part.rows.lines)
       out.lines.push_back(part.before + line);
   base_detail::for_each_task(std::ssize(parts), [&](std::int64_t i) {
@@ -95,22 +52,11 @@ void append(const std::vector<TextPart>& parts, const LineReader& reader, PointL
 }
 
 PointLines read_rows(std::istream& in, const std::string& name, Columns columns) {
-  constexpr std::size_t bytes_per_thread = std::size_t{1} << 20, most_bytes = std::size_t{8} << 20;
   LineReader reader(in, name);
-  std::vector<TextPart> parts{TextPart{RowParser(columns)}};
-  RowParser parser = parts[0].parser;
   PointLines result;
-  for (std::string_view line; !parser.has_points() && reader.next(line);)
-    parser.parse(reader, line, parts[0].rows);
-  const std::size_t bytes = std::min(
-      most_bytes, bytes_per_thread * static_cast<std::size_t>(base_detail::thread_count()));
-  while (true) {
-    append(parts, reader, result);
-    const std::string_view text = reader.take_lines(bytes);
-    if (text.empty())
-      break;
-    parse_parts(reader, text, parser, parts);
-  }
+  const RowParser parser = io_detail::parse_text<PointRows>(
+      reader, RowParser(columns),
+      [&](const std::vector<Part>& parts, const LineReader& at) { append(parts, at, result); });
   result.further_columns = parser.finish(reader);
   result.points.conservativeResize(3, std::ssize(result.lines)); // shrinks in its memory
   return result;

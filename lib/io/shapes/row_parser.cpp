@@ -90,76 +90,6 @@ void require_finite(const LineReader& reader, const double* values, const LineFo
                   std::isnan(values[i]) ? "NaN" : "an infinite number", format.use);
 }
 
-// ---- Headers
-
-/// Splits a line into columns at a separator or at blanks. Removes quotes and blanks around them.
-std::vector<std::string_view> split_columns(std::string_view line, char separator) {
-  constexpr std::string_view around = " \t\r\"'";
-  std::vector<std::string_view> columns;
-  const auto is_end = [&](char c) {
-    return separator == ' ' ? c == ' ' || c == '\t' : c == separator;
-  };
-  for (std::size_t begin = 0; begin <= line.size();) {
-    std::size_t end = begin;
-    while (end < line.size() && !is_end(line[end]))
-      ++end;
-    std::string_view column = line.substr(begin, end - begin);
-    const std::size_t first = column.find_first_not_of(around),
-                      last = column.find_last_not_of(around);
-    column = first == std::string_view::npos ? std::string_view()
-                                             : column.substr(first, last - first + 1);
-    if (separator != ' ' || !column.empty())
-      columns.push_back(column);
-    begin = end + 1;
-  }
-  return columns;
-}
-
-/// Finds the separator of a line. It may differ from that of the header.
-char find_separator(std::string_view line) {
-  const std::size_t at = line.find_first_of(",;|\t");
-  return at == std::string_view::npos ? ' ' : line[at];
-}
-
-/// The letters at the start of a name such as "Latitude [deg]", in lower case.
-std::string leading_letters(std::string_view name) {
-  std::string letters;
-  for (const char c : name)
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
-      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    else
-      break;
-  return letters;
-}
-
-/// Parses a header. Returns none unless it names the coordinates.
-std::optional<PointHeader> parse_header(std::string_view line, Columns columns) {
-  using Names = std::vector<std::string_view>;
-  const std::vector<Names> wanted =
-      columns == Columns::lonlat
-          ? std::vector<Names>{{"lon", "longitude", "long", "lng", "x"}, {"lat", "latitude", "y"}}
-      : columns == Columns::xy ? std::vector<Names>{{"x"}, {"y"}}
-                               : std::vector<Names>{{"x"}, {"y"}, {"z"}};
-  PointHeader header;
-  header.separator = find_separator(line);
-  std::vector<std::string> names;
-  for (const std::string_view name : split_columns(line, header.separator))
-    names.push_back(leading_letters(name));
-  header.names = names.size();
-  header.wanted = wanted.size();
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    auto found = names.end();
-    for (const std::string_view known : wanted[k]) // the first that there is
-      if (found == names.end())
-        found = std::find(names.begin(), names.end(), known);
-    if (found == names.end())
-      return std::nullopt;
-    header.column[k] = static_cast<std::size_t>(found - names.begin());
-    header.first = header.first && header.column[k] == k;
-  }
-  return header;
-}
-
 Columned parse_named(std::string_view line, const PointHeader& header, int count, double* values) {
   const std::vector<std::string_view> columns = split_columns(line, header.separator);
   for (int k = 0; k < count; ++k) {
@@ -171,6 +101,17 @@ Columned parse_named(std::string_view line, const PointHeader& header, int count
       return {read.outcome == Outcome::too_few ? Outcome::no_number : read.outcome, k, columns[at]};
   }
   return {};
+}
+
+/// The letters at the start of a name such as "Latitude [deg]", in lower case.
+std::string leading_letters(std::string_view name) {
+  std::string letters;
+  for (const char c : name)
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else
+      break;
+  return letters;
 }
 
 int commas_in(std::string_view text) {
@@ -202,8 +143,79 @@ bool has_decimal_commas(std::string_view line, int count,
 
 } // namespace
 
-FirstColumn::FirstColumn(Columns columns, const LineFormat& format)
-    : lonlat_(columns == Columns::lonlat), format_(&format) {}
+// ---- Headers
+
+void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns) {
+  constexpr std::string_view around = " \t\r\"'";
+  columns.clear();
+  const auto is_end = [&](char c) {
+    return separator == ' ' ? c == ' ' || c == '\t' : c == separator;
+  };
+  for (std::size_t begin = 0; begin <= line.size();) {
+    std::size_t end = begin;
+    while (end < line.size() && !is_end(line[end]))
+      ++end;
+    std::string_view column = line.substr(begin, end - begin);
+    const std::size_t first = column.find_first_not_of(around),
+                      last = column.find_last_not_of(around);
+    column = first == std::string_view::npos ? std::string_view()
+                                             : column.substr(first, last - first + 1);
+    if (separator != ' ' || !column.empty())
+      columns.push_back(column);
+    begin = end + 1;
+  }
+}
+
+std::vector<std::string_view> split_columns(std::string_view line, char separator) {
+  std::vector<std::string_view> columns;
+  split_columns(line, separator, columns);
+  return columns;
+}
+
+char find_separator(std::string_view line) {
+  const std::size_t at = line.find_first_of(",;|\t");
+  return at == std::string_view::npos ? ' ' : line[at];
+}
+
+std::optional<PointHeader> parse_header(std::string_view line, Columns columns) {
+  using Names = std::vector<std::string_view>;
+  const std::vector<Names> wanted =
+      columns == Columns::lonlat
+          ? std::vector<Names>{{"lon", "longitude", "long", "lng", "x"}, {"lat", "latitude", "y"}}
+      : columns == Columns::xy ? std::vector<Names>{{"x"}, {"y"}}
+                               : std::vector<Names>{{"x"}, {"y"}, {"z"}};
+  PointHeader header;
+  header.separator = find_separator(line);
+  std::vector<std::string> names;
+  for (const std::string_view name : split_columns(line, header.separator))
+    names.push_back(leading_letters(name));
+  header.names = names.size();
+  header.wanted = wanted.size();
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    auto found = names.end();
+    for (const std::string_view known : wanted[k]) // the first that there is
+      if (found == names.end())
+        found = std::find(names.begin(), names.end(), known);
+    if (found == names.end())
+      return std::nullopt;
+    header.column[k] = static_cast<std::size_t>(found - names.begin());
+    header.first = header.first && header.column[k] == k;
+  }
+  return header;
+}
+
+// ---- Positions
+
+void append_position(const LineReader& reader, Columns columns, const double* values,
+                     std::vector<double>& coordinates) {
+  const LineFormat& format = line_format(columns);
+  require_finite(reader, values, format);
+  format.require(reader, values);
+  format.append(coordinates, values);
+}
+
+FirstColumn::FirstColumn(Columns columns)
+    : lonlat_(columns == Columns::lonlat), format_(&line_format(columns)) {}
 
 void FirstColumn::take(const LineReader& reader, std::string_view line, double value, bool named) {
   if (lines_ == 0 && !follows_) {
@@ -243,7 +255,7 @@ void FirstColumn::refuse(const LineReader& reader, const char* what) const {
 }
 
 RowParser::RowParser(Columns columns)
-    : columns_(columns), format_(&line_format(columns)), first_(columns, *format_) {}
+    : columns_(columns), format_(&line_format(columns)), first_(columns) {}
 
 void RowParser::parse(const LineReader& reader, std::string_view line, PointRows& rows) {
   const std::size_t comment = line.find('#');

@@ -31,11 +31,30 @@ struct PointHeader {
   std::size_t names = 0, wanted = 0; ///< number of all columns, and of the coordinates
 };
 
+/// Splits a line into columns at a separator, or at a blank as separator at all blanks and tabs.
+/// Removes quotes and blanks around them.
+std::vector<std::string_view> split_columns(std::string_view line, char separator);
+/// The same into memory that serves for many lines.
+void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns);
+
+/// Finds the separator of a line: comma, semicolon, bar or tab, else a blank. It may differ from
+/// that of the header.
+char find_separator(std::string_view line);
+
+/// Parses a header. Returns none unless it names the coordinates.
+std::optional<PointHeader> parse_header(std::string_view line, Columns columns);
+
+/// Appends the point of a position, three numbers.
+/// \param values its coordinates as in the file.
+/// \throws Error parse, for numbers that give no point.
+void append_position(const LineReader& reader, Columns columns, const double* values,
+                     std::vector<double>& coordinates);
+
 /// Checks whether the first column is not a coordinate, in files with more columns than are read:
 /// it then numbers the lines, or is not a longitude.
 class FirstColumn {
 public:
-  FirstColumn(Columns columns, const LineFormat& format);
+  explicit FirstColumn(Columns columns);
 
   bool has_further() const { return further_; }
 
