@@ -41,6 +41,24 @@ double squared_reach(const Vec3Extended& a) {
   return a.x.hi * a.x.hi + a.y.hi * a.y.hi + a.z.hi * a.z.hi;
 }
 
+// Tier 2 where unit vectors are not differences: three of them err by 3 2^-100 in their
+// determinant, the evaluation by some 40 v^2 sqrt(3) < 2^-99.8; less than 2^-98 together.
+int orientation_extended(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double value =
+      dot(normalised_extended(a), cross(normalised_extended(b), normalised_extended(c))).hi;
+  constexpr double error = 0x1p-97;
+  return (value > error) - (value < -error);
+}
+
+// The difference of unit vectors, |b - a| = D <= 2, errs by 2^-99, p by 2^-100, which adds 2^-100
+// D, and the evaluation by less than 40 v^2 sqrt(3) D < 2^-98.8; less than 2^-97 together.
+int compare_distances_extended(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const double value =
+      dot(normalised_extended(p), normalised_extended(b) - normalised_extended(a)).hi;
+  constexpr double error = 0x1p-96;
+  return (value > error) - (value < -error);
+}
+
 // ---- Tier 3
 
 /// Integer coordinates proportional to a direction.
@@ -131,7 +149,7 @@ int sign_of_sum(std::array<Root, 4>& roots) {
 }
 
 int orientation_exact(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Vec3Integer ia, ib, ic;
+  thread_local Vec3Integer ia, ib, ic; // keep their limbs
   set_integers(ia, a);
   set_integers(ib, b);
   set_integers(ic, c);
@@ -161,7 +179,7 @@ int compare_directions_exact(const Vec3& a, const Vec3& b) {
 
 /// Sign of p.b/|b| - p.a/|a|.
 int compare_distances_exact(const Vec3& p, const Vec3& a, const Vec3& b) {
-  Vec3Integer ip, ia, ib;
+  thread_local Vec3Integer ip, ia, ib; // keep their limbs
   set_integers(ip, p);
   set_integers(ia, a);
   set_integers(ib, b);
@@ -223,6 +241,8 @@ int in_circle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c) {
   if (const int sign = orientation_filter(normalised(a), normalised(b), normalised(c)))
     return sign;
+  if (const int sign = orientation_extended(a, b, c))
+    return sign;
   return orientation_exact(a, b, c);
 }
 
@@ -239,7 +259,11 @@ int compare_directions(const Vec3& a, const Vec3& b) {
 int compare_distances(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 apart = normalised(b) - normalised(a);
   const double value = dot(normalised(p), apart), error = (11 + 13 * norm(apart)) * roundoff;
-  return std::abs(value) > error ? sign_of(value) : compare_distances_exact(p, a, b);
+  if (std::abs(value) > error)
+    return sign_of(value);
+  if (const int sign = compare_distances_extended(p, a, b))
+    return sign;
+  return compare_distances_exact(p, a, b);
 }
 
 bool same_direction(const Vec3& a, const Vec3& b) {
