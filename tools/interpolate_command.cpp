@@ -126,7 +126,7 @@ FieldGrid source_of(const InterpolateRequest& request) {
 FieldGrid target_of(const InterpolateRequest& request) {
   if (!request.to_positions())
     return raster_or_mesh(request.target, FieldChoice::none);
-  // columns that are named for the source are those of the target, too, if there are such
+  // --position names columns of the source, where both are text
   return read_positions(
       request.target,
       {.plane = request.plane,
@@ -473,7 +473,8 @@ void add_interpolate(CLI::App& app) {
       "shared areas, which keeps the integral. linear: on "
       "triangles between centres, bilinear in a raster. nearest: the value of the cell that holds "
       "the centre, or of the nearest position. natural: natural neighbours, of meshes and "
-      "positions. Default: conservative, or linear where SOURCE or TARGET is a text.");
+      "positions. Default: conservative, with a text linear.")
+      ->default_str("conservative, with a text linear");
   add_field_options(*command, *request);
   add_weights_options(*command, *request);
   command->get_option("--apply")->excludes("--method");

@@ -60,11 +60,6 @@ std::vector<Row> sorted_rows(const Points3& points) {
   return rows;
 }
 
-/// Fields with values at the same positions.
-struct Group {
-  std::vector<std::size_t> fields;
-};
-
 bool same_positions(const MeshField& a, const MeshField& b) {
   return base_detail::holds_for_blocks(a.values.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
@@ -74,16 +69,17 @@ bool same_positions(const MeshField& a, const MeshField& b) {
   });
 }
 
-std::vector<Group> groups_of(const std::vector<MeshField>& fields) {
-  std::vector<Group> groups;
+/// Numbers of fields, those with values at the same positions together.
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<MeshField>& fields) {
+  std::vector<std::vector<std::size_t>> groups;
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    const auto found = std::ranges::find_if(groups, [&](const Group& group) {
-      return same_positions(fields[group.fields.front()], fields[k]);
+    const auto found = std::ranges::find_if(groups, [&](const std::vector<std::size_t>& group) {
+      return same_positions(fields[group.front()], fields[k]);
     });
     if (found == groups.end())
       groups.push_back({{k}});
     else
-      found->fields.push_back(k);
+      found->push_back(k);
   }
   return groups;
 }
@@ -123,16 +119,19 @@ Mesh triangulated(Distinct& distinct, const FieldGrid& source, const MeshField& 
       site = mesh.site_of_input[static_cast<std::size_t>(site)];
     return mesh;
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_few_sites && error.code() != ErrorCode::degenerate)
+    const bool few = error.code() == ErrorCode::too_few_sites;
+    if (!few && error.code() != ErrorCode::degenerate)
       throw;
-    throw Error(error.code(),
-                base_detail::message(
-                    "{}: {} has values at {}, of which {} distinct, too few for a triangle or on "
-                    "one {}; give values at 3 positions or more that are not",
-                    source.name, field.name,
-                    base_detail::counted(std::ssize(distinct.rows), "position"),
-                    distinct.points.cols(),
-                    source.positions->surface.is_sphere() ? "great circle" : "line"));
+    const std::string rows = base_detail::counted(std::ssize(distinct.rows), "row");
+    const char* const line = source.positions->surface.is_sphere() ? "great circle" : "line";
+    throw Error(
+        error.code(),
+        few ? base_detail::message("{}: the {} with {} have fewer than 3 distinct positions; "
+                                   "give more",
+                                   source.name, rows, field.name)
+            : base_detail::message("{}: the {} with {} are all on one {}; give positions "
+                                   "beside it, too",
+                                   source.name, rows, field.name, line));
   }
 }
 
@@ -227,8 +226,8 @@ ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& 
   std::vector<bool> merged(sorted.size());
   ScatteredFields out;
   out.fields = source.fields;
-  for (const Group& group : groups_of(source.fields)) {
-    const MeshField& first = source.fields[group.fields.front()];
+  for (const std::vector<std::size_t>& group : groups_of(source.fields)) {
+    const MeshField& first = source.fields[group.front()];
     Distinct distinct = distinct_of(sorted, first);
     const Mesh mesh = triangulated(distinct, source, first);
     const RowsOfSites rows = rows_of_sites(distinct, mesh.points.cols());
@@ -236,7 +235,7 @@ ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& 
       for (std::int64_t k = rows.begin[site] + 1; k < rows.begin[site + 1]; ++k)
         merged[static_cast<std::size_t>(rows.rows[static_cast<std::size_t>(k)])] = true;
     const Weights weights = interpolation_weights(mesh, centres, kind);
-    for (const std::size_t k : group.fields)
+    for (const std::size_t k : group)
       out.fields[k].values = interpolate(weights, means_of(rows, source.fields[k].values));
   }
   out.merged = std::ranges::count(merged, true);

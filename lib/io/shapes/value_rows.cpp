@@ -78,11 +78,12 @@ void ValueParser::parse(const LineReader& reader, std::string_view line, ValueRo
   const std::string_view content = line.substr(0, mark);
   if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
     if (mark != std::string_view::npos && !has_points())
-      comment_ = line.substr(mark + 1);
+      comment_ = line.substr(mark + 1), comment_line_ = reader.number();
     return;
   }
   if (!has_points() && header_.empty() && !has_number(content)) {
     header_ = content;
+    header_line_ = reader.number();
     return;
   }
   if (!has_points())
@@ -111,7 +112,7 @@ void ValueParser::begin(const LineReader& reader, std::string_view line) {
   columns_.count = texts_.size();
   if (header_.empty() && !comment_.empty() && parse_header(comment_, kind()) &&
       split_columns(comment_, find_separator(comment_)).size() == columns_.count)
-    header_ = comment_; // or else the comment is a sentence
+    header_ = comment_, header_line_ = comment_line_; // or else the comment is a sentence
   if (!header_.empty())
     for (const std::string_view name : split_columns(header_, find_separator(header_)))
       names_.emplace_back(name);
@@ -135,9 +136,9 @@ void ValueParser::choose_position(const LineReader& reader) {
     columns_.named = true;
     columns_.position = {header->column[0], header->column[1]};
   } else if (!names_.empty()) {
-    fail_file(reader.name(),
-              "the header names {}, and no {}; name the columns of the position (--position)",
-              listed(names_), choice_.plane ? "x and y" : "longitude and latitude (lon, lat)");
+    fail_at(reader.name(), header_line_,
+            "the header names {}, and no {}; name the columns of the position (--position)",
+            listed(names_), choice_.plane ? "x and y" : "longitude and latitude (lon, lat)");
   } else if (columns_.count < 2) {
     reader.fail("1 column only; write {} and the values on each line",
                 choice_.plane ? "x y" : "longitude, latitude");
@@ -167,7 +168,8 @@ void ValueParser::choose_fields(const LineReader& reader) {
   for (const std::size_t column : columns_.fields) {
     const std::string name = name_of(column);
     if (std::ranges::find(columns_.names, name) != columns_.names.end())
-      fail_file(reader.name(), "two columns have the name {}; choose by number (--fields)", name);
+      fail_at(reader.name(), std::max<std::int64_t>(header_line_, 1),
+              "two columns have the name {}; choose by number (--fields)", name);
     columns_.names.push_back(name);
   }
 }
@@ -194,17 +196,19 @@ std::size_t ValueParser::find(const LineReader& reader, const std::string& colum
   if (names_.empty())
     fail_file(reader.name(), "no column {}; without a header columns have the numbers 1 to {}",
               column, columns_.count);
-  fail_file(reader.name(), "no column {}; the header names {}", column, listed(names_));
+  fail_at(reader.name(), header_line_, "no column {}; the header names {}", column, listed(names_));
 }
 
 double ValueParser::coordinate(const LineReader& reader, std::size_t column) const {
   double value = none;
   const Columned read = parse_number(texts_[column], value);
-  if (read.outcome != Outcome::ok)
-    reader.fail("{}, in the column {} of the position; {}, or remove the row", describe(read),
-                names_.empty() ? message("{}", column + 1) : name_of(column),
-                remedy(read.text, false));
-  return value;
+  if (read.outcome == Outcome::ok)
+    return value;
+  const std::string name = names_.empty() ? message("{}", column + 1) : name_of(column);
+  if (read.text.empty())
+    reader.fail("the column {} of the position is empty; write a number, or remove the row", name);
+  reader.fail("{}, in the column {} of the position; {}, or remove the row", describe(read), name,
+              remedy(read.text, false));
 }
 
 double ValueParser::value(const LineReader& reader, std::size_t field) const {

@@ -70,7 +70,8 @@ private:
 
   ColumnChoice choice_;
   ValueColumns columns_;
-  std::string header_, comment_;   ///< lines before the first row
+  std::string header_, comment_; ///< lines before the first row
+  std::int64_t header_line_ = 0, comment_line_ = 0;
   std::vector<std::string> names_; ///< of all columns, by the header
   std::int64_t first_line_ = 0;    ///< number of the first row's line
   FirstColumn first_;

@@ -593,6 +593,59 @@ def interpolate(source: ArrayLike | Grid | Raster, values: ArrayLike, target: Ar
     return interpolation_weights(source, target, method=method)._at_target(field)
 
 
+def _scattered_target(surface, targets):
+    """The target of scattered values as interpolation takes it."""
+    if isinstance(targets, str):
+        raise Error(f"targets is {targets!r}; give the columns and rows of a raster as (720, 360), or positions")
+    if isinstance(targets, (tuple, list)) and len(targets) == 2 and all(np.ndim(size) == 0 for size in targets):
+        targets = raster(*targets)
+    targets = _grid_of(targets)
+    if isinstance(targets, (Mesh, Polygons, Raster)):
+        return _field_grid(targets)
+    return _calotte.grid_of_positions(_arguments.points_of(surface, targets, "targets"), surface)
+
+
+def interpolate_scattered(points: ArrayLike, values: ArrayLike, targets: Any, *, method: str = "linear",
+                          surface: SurfaceLike | None = None) -> Array:
+    """Values at scattered points, such as those of stations, at positions or at the cells of a grid.
+
+    points: n x 3 directions of any length, or n x 2 longitudes and latitudes in degrees; n x 2 in the
+        plane.
+    values: n numbers, or k x n for k fields. NaN is missing: its point counts for the other fields
+        alone. Points at one position are one, whose value is the mean; a warning tells their number.
+    targets: positions, as the points; columns and rows of a global raster, such as (720, 360); or a
+        Raster, Mesh or Polygons, at the centres of whose cells the values are.
+    method: "linear" on each Delaunay triangle of the points; "natural", by natural neighbours
+        (Sibson, 1980), which is smooth except at the points; "nearest", the value of the nearest
+        point.
+    surface: where the points live: the sphere (default), or a plane such as plane().
+    Returns m numbers, or k x m: of a raster row after row. NaN outside of the triangles, unless
+    "nearest": points of a part of the sphere, or of a plane, have triangles in their convex hull.
+    Raises Error, with the index of the point, and for points on one great circle or line.
+
+    >>> stations = [(0, 0), (90, 0), (0, 90), (45, -30)]
+    >>> interpolate_scattered(stations, [2, 2, 5, 2], [(45, -10), (200, 0)]).round(12).tolist()
+    [2.0, nan]
+    >>> interpolate_scattered(stations, [2, 2, 5, 2], (36, 18), method="nearest").shape
+    (648,)
+    """
+    _require_method(method, _METHODS_AT_POSITIONS)
+    surface = _arguments.surface(surface)
+    source = _arguments.points_of(surface, points)
+    numbers = _arguments.numbers(values, "values")
+    if numbers.ndim not in (1, 2) or numbers.shape[-1] != len(source):
+        raise Error(f"values have the shape {numbers.shape} for {len(source)} points; give n numbers, or k x n")
+    if np.isinf(numbers).any():
+        first = tuple(int(i) for i in np.argwhere(np.isinf(numbers))[0])
+        raise Error(f"values[{', '.join(map(str, first))}] is infinite; give NaN where there is no value")
+    target = _scattered_target(surface, targets)
+    found, merged = _calotte.interpolate_scattered(_calotte.grid_of_positions(source, surface),
+                                                   np.atleast_2d(numbers), target, method)
+    if merged > 0:
+        _arguments.warn(f"{_display.counted(merged, 'point')} of equal positions were merged; their values are averaged")
+    return found[0] if numbers.ndim == 1 else found
+
+
 # ---- Centroidal Voronoi tessellations
 
 @dataclass(frozen=True)

@@ -40,6 +40,40 @@ Interpolation kind_of(const std::string& method) {
                                   : Interpolation::linear;
 }
 
+/// \param points n x 3 directions, or n x 2 of a plane.
+Grid grid_of_positions(const Doubles& points, const Surface& surface) {
+  auto grid = std::make_shared<FieldGrid>();
+  grid->name = "the positions";
+  const auto places = columns(points);
+  Positions& positions = grid->positions.emplace();
+  positions.surface = surface;
+  positions.points = Points3::Zero(3, places.cols());
+  positions.points.topRows(places.rows()) = places;
+  return grid;
+}
+
+/// \param values k x n, fields of the positions. \returns k x m, and the number of merged rows.
+py::tuple scattered(const FieldGrid& positions, const Doubles& values, const FieldGrid& target,
+                    const std::string& method) {
+  const auto by_position = columns(values); // n x k, as columns of numpy's rows
+  std::int64_t merged = 0;
+  Eigen::MatrixXd found = call([&] {
+    FieldGrid source = positions;
+    for (Eigen::Index k = 0; k < by_position.cols(); ++k) {
+      MeshField& field = source.fields.emplace_back();
+      field.name = "values[" + std::to_string(k) + "]";
+      field.values = by_position.col(k);
+    }
+    const ScatteredFields at = interpolate_scattered(source, target, kind_of(method));
+    merged = at.merged;
+    Eigen::MatrixXd out(target.size(), by_position.cols());
+    for (Eigen::Index k = 0; k < out.cols(); ++k)
+      out.col(k) = at.fields[static_cast<std::size_t>(k)].values;
+    return out;
+  });
+  return py::make_tuple(handed_over(std::move(found)), merged);
+}
+
 std::shared_ptr<GridWeights> weights_between(const FieldGrid& source, const FieldGrid& target,
                                              const std::string& method) {
   return call([&] {
@@ -134,6 +168,8 @@ void add_field_grids(py::module_& module) {
   module.def("raster_of_nodes", &boxes_of_nodes);
   module.def("grid_of_boxes", &grid_of_boxes);
   module.def("grid_of_mesh", &grid_of_mesh);
+  module.def("grid_of_positions", &grid_of_positions);
+  module.def("interpolate_scattered", &scattered);
   module.def("grid_weights", &weights_between);
   module.def("weights_at", &weights_at<Mesh>);
   module.def("weights_at", &weights_at<LonLatBoxes>);
