@@ -149,6 +149,10 @@ private:
       containing = search_rim(p);
     out.triangle[i] = containing;
     set_weights(containing, p, i, out);
+    if (rim == Rim::within_rounding && containing >= 0) {
+      out.nearest[i] = -1; // not asked for
+      return containing;
+    }
     const Near near = nearest_from(containing >= 0 ? containing : from, p);
     out.nearest[i] = near.site;
     return near.triangle;
@@ -567,10 +571,11 @@ template <class Body> decltype(auto) in_space_of_mesh(const Mesh& mesh, const Bo
 
 /// For a single search the grid is made from few triangles: visiting all would take longer than the
 /// walks.
+constexpr std::int64_t known_to_one_search = 4096;
+
 Locations locate(const Mesh& mesh, const PointsRef& positions, Rim rim) {
-  constexpr std::int64_t known = 4096;
   return in_space_of_mesh(mesh, [&](const Space auto& space) {
-    return LocatorIn(mesh, space, known).find(positions, {}, rim);
+    return LocatorIn(mesh, space, known_to_one_search).find(positions, {}, rim);
   });
 }
 
@@ -596,6 +601,12 @@ base_detail::Points2Ref checked_positions(const Plane& plane, const PointsRef& g
 
 Locations locate_within_rounding(const Mesh& mesh, const PointsRef& positions) {
   return locate(mesh, positions, Rim::within_rounding);
+}
+
+Ids find_nearest(const Mesh& mesh, const PointsRef& positions) {
+  return in_space_of_mesh(mesh, [&](const Space auto& space) {
+    return LocatorIn(mesh, space, known_to_one_search).nearest(positions, {});
+  });
 }
 
 } // namespace mesh_detail

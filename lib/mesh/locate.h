@@ -16,7 +16,11 @@ base_detail::Points3Ref checked_positions(const exact_detail::Sphere& sphere,
 base_detail::Points2Ref checked_positions(const exact_detail::Plane& plane, const PointsRef& given);
 
 /// Does what locate() does, but a position that is outside of an open mesh by rounding alone counts
-/// as on its boundary: less than 1e-15 from it, in the plane of the largest coordinate.
+/// as on its boundary: less than 1e-15 from it, in the plane of the largest coordinate. The nearest
+/// site is that of positions without a triangle; -1 for all others.
 Locations locate_within_rounding(const Mesh& mesh, const PointsRef& positions);
+
+/// The nearest sites alone, in less time than locate().
+Ids find_nearest(const Mesh& mesh, const PointsRef& positions);
 
 } // namespace calotte::mesh_detail

@@ -170,11 +170,10 @@ Weights weights_of(const SeenMesh<S>& seen, const PointsRef& positions, const Lo
                    Interpolation kind) {
   const Mesh& mesh = seen.mesh();
   using Position = typename S::Position;
-  const std::int64_t count = at.triangle.size();
   const NaturalNeighbours<S> natural(seen);
-  return matrix_of(count, mesh.points.cols(), [&](std::int64_t i, WeightRow& row) {
+  return matrix_of(positions.cols(), mesh.points.cols(), [&](std::int64_t i, WeightRow& row) {
     const Position p = seen.position(point(positions, i));
-    if (kind == Interpolation::nearest || (at.triangle[i] < 0 && is_site(seen, at.nearest[i], p)))
+    if (at.triangle[i] < 0 && (kind == Interpolation::nearest || is_site(seen, at.nearest[i], p)))
       row.push_back({at.nearest[i], 1});
     else if (at.triangle[i] < 0)
       return;
@@ -193,7 +192,11 @@ Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions, Inte
   using namespace remap_detail;
   require(kind != Interpolation::conservative,
           "conservative weights are those of cells, not of positions; use conservative_weights()");
-  const Locations at = mesh_detail::locate_within_rounding(mesh, positions);
+  const Locations at = kind == Interpolation::nearest
+                           ? Locations{Ids::Constant(positions.cols(), -1),
+                                       {},
+                                       mesh_detail::find_nearest(mesh, positions)}
+                           : mesh_detail::locate_within_rounding(mesh, positions);
   return in_space_of(mesh.surface, [&](const Space auto& space) {
     return weights_of(SeenMesh(mesh, space), positions, at, kind);
   });

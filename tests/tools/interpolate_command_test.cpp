@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/command.h"
 #include "support/command.h"
 
 #include <calotte/field_grid.h>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <string>
 
 using namespace calotte;
@@ -154,5 +156,72 @@ never.nc mesh.nc -o out.nc | 3 | never.nc
       has(high.err, "8x12 has 8 columns and 12 rows, whose boxes are 45 degrees wide and 15 high"));
   check_refusals(bench, "info", R"(
 raster.nc | 2 | raster.nc: a raster of lat and lon, not a mesh; interpolate, cvt --cell-width and cull --raster take
+)");
+}
+
+TEST_CASE("interpolate: a text of values onto a raster, a mesh and positions") {
+  const Bench bench;
+  make_grids(bench);
+  std::ofstream(bench.path("obs.csv"))
+      << "id,lon,lat,t,u\nA,0,0,1,\nB,90,0,2,7\nC,180,0,3,7\nD,-90,0,4,7\nE,0,90,5,7\nF,0,-90,6,7\n"
+         "G,-180,0,5,7\n";
+  std::ofstream(bench.path("to.txt")) << "0.1 0.25\n180 0\n";
+  const std::string merged = "calotte: warning: obs.csv: 1 row had the position of an earlier row; "
+                             "the values at one position are averaged\n";
+  const Outcome raster = bench.run("interpolate obs.csv 24x12 -o map.nc --fields t,u");
+  CHECK(raster.code == 0);
+  CHECK(raster.err == merged);
+  CHECK(raster.out == "map.nc: t, u at 288 cells, linear\n");
+  CHECK(read_field_grid(bench.path("map.nc")).fields.size() == 2);
+  CHECK(bench.run("interpolate obs.csv mesh.nc -o cells.vtp --fields T --method natural").out ==
+        "cells.vtp: t at 500 cells, natural\n");
+  CHECK(bench.run("interpolate obs.csv to.txt -o at.csv --fields t,5 --method nearest").out ==
+        "at.csv: t, u at 2 positions, nearest\n");
+  CHECK(read_file(bench.path("at.csv")) == "lon,lat,t,u\n0.1,0.25,1,7\n180,0,4,7\n");
+  CHECK(bench.run("interpolate raster.nc to.txt -o at.txt --fields height").out ==
+        "at.txt: height at 2 positions, linear\n");
+  CHECK(bench.run("interpolate mesh.vtp to.txt -o at.txt").code == 3);
+  std::ofstream(bench.path("part.csv")) << "lon,lat,t\n0,0,1\n90,0,2\n0,90,3\n";
+  CHECK(bench.run("interpolate part.csv 24x12 -o part.nc").out ==
+        "part.nc: t: 252 of 288 cells are outside of the triangles between the positions of "
+        "part.csv, and missing\npart.nc: t at 288 cells, linear\n");
+}
+
+TEST_CASE("interpolate: values of a plane") {
+  const Bench bench;
+  std::ofstream(bench.path("obs.txt")) << "x y t\n0 0 0\n1000 0 1\n0 1000 2\n1000 1000 3\n";
+  std::ofstream(bench.path("to.txt")) << "x y\n500 250\n2000 0\n";
+  CHECK(bench.run("interpolate obs.txt to.txt --plane -o at.txt --method natural").code == 0);
+  CHECK(read_file(bench.path("at.txt")) == "x y t\n500 250 1\n2000 0 NaN\n");
+}
+
+TEST_CASE("interpolate: options and texts that do not go together, and bad texts") {
+  const Bench bench;
+  make_grids(bench);
+  std::ofstream(bench.path("obs.csv")) << "lon,lat,t\n0,0,1\n90,0,2\n0,90,3\n";
+  std::ofstream(bench.path("word.csv")) << "lon,lat,t\n0,0,1\n90,0,warm\n0,90,3\n";
+  std::ofstream(bench.path("line.csv")) << "lon,lat,t\n0,0,1\n90,0,2\n50,0,3\n";
+  std::ofstream(bench.path("empty.csv"));
+  check_refusals(bench, "interpolate", R"(
+obs.csv 24x12 | 2 | nothing to write; give -o FILE
+obs.csv 24x12 -o out.csv | 2 | give a name that ends in .nc
+obs.csv obs.csv -o out.vtp | 2 | give a name that ends in .csv, .txt or .nc
+obs.csv 24x12 -o out.nc --method conservative | 2 | positions have no cells to share areas; give linear, nearest or natural
+raster.nc obs.csv -o out.csv --method conservative | 2 | positions have no cells to share areas
+raster.nc obs.csv -o out.csv --fields heigth | 2 | did you mean height?
+obs.csv 24x12 -o out.nc --weights w.nc | 2 | --weights does not apply to positions, which have no cells; leave it out
+obs.csv 24x12 -o out.nc --mesh mesh.nc | 2 | --mesh does not apply to a text of values; leave it out
+obs.csv 24x12 -o out.nc --at time=0 | 2 | --at does not apply
+obs.csv 24x12 -o out.nc --min-cover 0.5 | 2 | --min-cover does not apply
+obs.csv 24x12 -o out.nc --fields u | 2 | obs.csv line 1: no column u; the header names lon, lat, t
+obs.csv 24x12 -o out.nc --position lon | 2 | --position
+raster.nc mesh.nc -o out.nc --position lon,lat | 2 | --position does not apply to meshes and rasters
+raster.nc mesh.nc -o out.nc --plane | 2 | --plane does not apply to meshes and rasters
+obs.csv 24x12 -o out.nc --plane --position 1,2 | 2 | obs.csv is in a plane, and 24x12 is on the sphere; give grids of one surface
+word.csv 24x12 -o out.nc | 2 | word.csv line 3: "warm" is not a number, in the column t
+line.csv 24x12 -o out.nc | 2 | line.csv: the 3 rows with t are all on one great circle
+empty.csv 24x12 -o out.nc | 2 | empty.csv: no rows of numbers in 0 lines
+never.csv 24x12 -o out.nc | 3 | never.csv
+obs.csv obs.csv -o obs.csv | 2 | obs.csv
 )");
 }

@@ -642,7 +642,8 @@ def interpolate_scattered(points: ArrayLike, values: ArrayLike, targets: Any, *,
     found, merged = _calotte.interpolate_scattered(_calotte.grid_of_positions(source, surface),
                                                    np.atleast_2d(numbers), target, method)
     if merged > 0:
-        _arguments.warn(f"{_display.counted(merged, 'point')} of equal positions were merged; their values are averaged")
+        _arguments.warn(f"{_display.counted(merged, 'point')} had the position of an earlier one; the values at one "
+                        "position are averaged")
     return found[0] if numbers.ndim == 1 else found
 
 
