@@ -473,8 +473,8 @@ void add_interpolate(CLI::App& app) {
       "shared areas, which keeps the integral. linear: on "
       "triangles between centres, bilinear in a raster. nearest: the value of the cell that holds "
       "the centre, or of the nearest position. natural: natural neighbours, of meshes and "
-      "positions. Default: conservative, with a text linear.")
-      ->default_str("conservative, with a text linear");
+      "positions.")
+      ->default_str("conservative; linear with a text");
   add_field_options(*command, *request);
   add_weights_options(*command, *request);
   command->get_option("--apply")->excludes("--method");

@@ -21,7 +21,7 @@ def test_values_at_the_points_and_shapes():
         assert found.shape == (3, 300) and np.abs(found - values).max() < 1e-12
         one = calotte.interpolate_scattered(points, values[1], points[:7], method=method)
         assert one.shape == (7,) and np.abs(one - values[1, :7]).max() < 1e-12
-        vectors = calotte.from_lonlat(points)
+        vectors = calotte.from_lonlat(*points.T)
         assert (calotte.interpolate_scattered(2 * vectors, values[1], vectors[:7], method=method) == one).all()
 
 
@@ -80,7 +80,7 @@ def test_arguments_are_refused():
             calotte.interpolate_scattered(*arguments)
     with pytest.raises(calotte.Error, match="no method conservative"):
         calotte.interpolate_scattered(points, np.ones(10), points, method="conservative")
-    bad = calotte.from_lonlat(points)
+    bad = calotte.from_lonlat(*points.T)
     bad[4] = np.nan
     with pytest.raises(calotte.Error, match="position 4"):
         calotte.interpolate_scattered(bad, np.ones(10), points)

@@ -171,7 +171,8 @@ TEST_CASE("interpolate: a text of values onto a raster, a mesh and positions") {
   const Outcome raster = bench.run("interpolate obs.csv 24x12 -o map.nc --fields t,u");
   CHECK(raster.code == 0);
   CHECK(raster.err == merged);
-  CHECK(raster.out == "map.nc: t, u at 288 cells, linear\n");
+  CHECK(has(raster.out, "map.nc: u: 144 of 288 cells are outside of the triangles between"));
+  CHECK(has(raster.out, "map.nc: t, u at 288 cells, linear\n"));
   CHECK(read_field_grid(bench.path("map.nc")).fields.size() == 2);
   CHECK(bench.run("interpolate obs.csv mesh.nc -o cells.vtp --fields T --method natural").out ==
         "cells.vtp: t at 500 cells, natural\n");

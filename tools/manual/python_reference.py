@@ -15,7 +15,8 @@ from calotte import _calotte, widths
 
 GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "gates", "operator_errors",
-                                  "neighbours", "locate", "area_weights", "interpolate", "threads"]),
+                                  "neighbours", "locate", "area_weights", "interpolate", "interpolate_scattered",
+                                  "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
     ("Grids", ["cvt", "plan", "refine", "coarsen", "rotate", "limited_area", "multimesh", "density"]),
     ("Points", ["random_points", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",
