@@ -110,7 +110,7 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
 std::optional<FieldGrid> raster_of(const std::string& columns_x_rows);
 
 /// The cells of a grid that is no raster: those of its file, or the Voronoi cells of its mesh.
-/// \throws Error as voronoi().
+/// \throws Error as voronoi(); invalid_argument for positions.
 Polygons cells_of(const FieldGrid& grid);
 
 /// The weights from one grid to another.
@@ -162,7 +162,7 @@ enum class WeightsFormat {
 /// Writes weights, with centres, corners, areas and fractions of both grids. The rows sum to 1: the
 /// normalisation is "fracarea" in the words of SCRIP and ESMF.
 /// \param history attribute; empty for none.
-/// \throws Error invalid_argument for grids of a plane; file.
+/// \throws Error invalid_argument for grids of a plane and positions; file.
 void write_weights(const std::string& path, const GridWeights& weights, const FieldGrid& source,
                    const FieldGrid& target, Interpolation kind,
                    WeightsFormat format = WeightsFormat::esmf, const std::string& history = {});

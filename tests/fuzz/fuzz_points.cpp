@@ -2,6 +2,7 @@
 #include "bytes.h"
 
 #include <calotte/error.h>
+#include <calotte/field_grid.h>
 #include <calotte/read.h>
 
 #include <sstream>
@@ -9,6 +10,24 @@
 #include <vector>
 
 using namespace calotte;
+
+namespace {
+
+/// Positions and values: a value of each field for each position, which are finite.
+void read_values(const std::string& text, const ColumnChoice& choice) {
+  try {
+    std::istringstream in(text);
+    const FieldGrid read = read_positions(in, "values", choice);
+    fuzz::require(read.positions->points.allFinite() &&
+                  read.positions->coordinates.cols() == read.size());
+    for (const MeshField& field : read.fields)
+      fuzz::require(field.values.size() == read.size() && !field.values.array().isInf().any());
+  } catch (const Error& error) {
+    fuzz::require(error.code() != ErrorCode::internal);
+  }
+}
+
+} // namespace
 
 /// Points in text: as many as lines that count, all finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -21,5 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const Error& error) {
       fuzz::require(error.code() != ErrorCode::internal);
     }
+  read_values(text, {});
+  read_values(text, {.plane = true, .position = {"2", "1"}, .fields = {{"b", "3"}}});
   return 0;
 }

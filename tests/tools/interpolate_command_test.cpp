@@ -194,6 +194,12 @@ TEST_CASE("interpolate: values of a plane") {
   std::ofstream(bench.path("to.txt")) << "x y\n500 250\n2000 0\n";
   CHECK(bench.run("interpolate obs.txt to.txt --plane -o at.txt --method natural").code == 0);
   CHECK(read_file(bench.path("at.txt")) == "x y t\n500 250 1\n2000 0 NaN\n");
+  REQUIRE(bench.run("points random-plane 60 --rectangle 0,0,1000,1000 -o p.txt").code == 0);
+  REQUIRE(bench.run("delaunay p.txt --plane -o plane.vtp").code == 0);
+  CHECK(bench.run("interpolate obs.txt plane.vtp --plane -o at.nc").out ==
+        "at.nc: t at 60 cells, linear\n");
+  CHECK(has(bench.run("interpolate obs.txt plane.vtp --position 1,2 -o at.nc").err,
+            "latitude 1000 is outside -90 to 90"));
 }
 
 TEST_CASE("interpolate: options and texts that do not go together, and bad texts") {

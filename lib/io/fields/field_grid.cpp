@@ -413,6 +413,7 @@ std::optional<FieldGrid> raster_of(const std::string& columns_x_rows) {
 }
 
 Polygons cells_of(const FieldGrid& grid) {
+  base_detail::require(!grid.positions, "{} has positions, without cells; give a mesh", grid.name);
   if (grid.mesh.polygons)
     return *grid.mesh.polygons;
   const Mesh& mesh = *grid.mesh.mesh;

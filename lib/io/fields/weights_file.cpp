@@ -70,6 +70,7 @@ DescribedGrid described(const FieldGrid& grid, const DoubleVector& area, DoubleV
 }
 
 void require_sphere(const FieldGrid& grid) {
+  require(!grid.positions, "{} has positions, without cells; give a mesh or a raster", grid.name);
   require(grid.boxes || grid.mesh.surface().is_sphere(),
           "{} is in a plane, and files of weights hold longitudes and latitudes; leave the weights "
           "out",
