@@ -333,6 +333,24 @@ TEST_CASE("orientation agrees with exact arithmetic, from the centre and from fo
   });
 }
 
+TEST_CASE("compare_distances agrees with exact arithmetic, also midway between two sites") {
+  for_each_quad(100, [](Random& random, const Quad& q) {
+    const auto agrees = [](const Vec3& p, const Vec3& a, const Vec3& b) {
+      CHECK(compare_distances(p, a, b) == exact::compare_distances(p, a, b));
+      CHECK(compare_distances(p, b, a) == -compare_distances(p, a, b));
+    };
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 &p = q[i], &a = q[(i + 1) % 4], &b = q[(i + 2) % 4],
+                 middle = normalised(a) + normalised(b);
+      agrees(p, a, b);
+      if (dot(middle, middle) > 1e-20) {
+        agrees(middle, a, b);
+        agrees(by_ulps(random, normalised(middle), 2), a, b);
+      }
+    }
+  });
+}
+
 TEST_CASE("compare_directions orders directions, and is 0 for equal ones alone") {
   for_each_quad(100, [](Random&, const Quad& q) {
     for (int i = 0; i < 4; ++i)

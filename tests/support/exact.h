@@ -83,6 +83,17 @@ inline int orientation(const View& view, const Vec3& a, const Vec3& b, const Vec
   return view.from_centre ? exact::orientation(a, b, c) : -exact::in_circle(a, b, c, view.focus);
 }
 
+/// The sign of p.b/|b| - p.a/|a|: -1 if b is farther from p than a.
+inline int compare_distances(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Integers at = integers(p), first = integers(a), second = integers(b);
+  const auto product = [&](const Integers& q) -> mpz_class {
+    return at.x * q.x + at.y * q.y + at.z * q.z;
+  };
+  const mpz_class pa = product(first), pb = product(second);
+  return sign_of_roots({sgn(pb), -sgn(pa), 0, 0},
+                       {pb * pb * square(first), pa * pa * square(second), 0, 0});
+}
+
 inline bool same_direction(const Vec3& a, const Vec3& b) {
   const Integers p = integers(a), q = integers(b);
   return p.x == q.x && p.y == q.y && p.z == q.z;
