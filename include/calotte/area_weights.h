@@ -28,7 +28,7 @@ struct AreaWeightOptions {
   /// rings bound; else neighbours.
   std::optional<EdgeCells> edge = {};
   double reach = 0; ///< with EdgeCells::reach: more than 0; an angle of at most pi/2, or a length
-  double gap = 3;   ///< with EdgeCells::neighbours: 1 or more
+  double gap = 4;   ///< with EdgeCells::neighbours: 1 or more
   /// As DelaunayOptions::merge_within: points this near share a cell. Default 0: equal ones do.
   double merge_within = 0;
 };

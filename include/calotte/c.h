@@ -166,6 +166,41 @@ CALOTTE_C_API calotte_status calotte_locate(const calotte_mesh* mesh, const doub
                                             int64_t n, int32_t* triangles, double* weights,
                                             int32_t* nearest, calotte_error* error);
 
+/** A mesh, prepared for many searches, which threads may make at the same time. */
+typedef struct calotte_locator calotte_locator;
+
+/** Frees a locator, not its mesh. Null is ignored. */
+CALOTTE_C_API void calotte_locator_free(calotte_locator* locator);
+
+/** Prepares a mesh, which must outlive the locator. */
+CALOTTE_C_API calotte_status calotte_locator_make(const calotte_mesh* mesh,
+                                                  calotte_locator** locator, calotte_error* error);
+
+/** As calotte_locate(), from a triangle near each position.
+ * hints: n triangles, such as earlier results; -1 for none. Null: none for all. They change no
+ * result in a Delaunay triangulation. */
+CALOTTE_C_API calotte_status calotte_locator_find(const calotte_locator* locator,
+                                                  const double* positions, int64_t n,
+                                                  const int32_t* hints, int32_t* triangles,
+                                                  double* weights, int32_t* nearest,
+                                                  calotte_error* error);
+
+/** Finds the k nearest sites of n positions, by distance; those that are equally near by id. Exact.
+ * k: 1 to the number of sites.
+ * sites: n k; those of the first position first. */
+CALOTTE_C_API calotte_status calotte_locator_nearest(const calotte_locator* locator,
+                                                     const double* positions, int64_t n, int64_t k,
+                                                     int32_t* sites, calotte_error* error);
+
+/** Finds the sites within a distance of n positions. Of those whose distance is that up to
+ * rounding, some. A first call with null sites gives the room that the second one needs. distance:
+ * 0 or more; radians, at most pi, or the unit of the plane. begin: n + 1; position i has the sites
+ * begin[i] to begin[i + 1] - 1, ascending. sites: begin[n], or null. */
+CALOTTE_C_API calotte_status calotte_locator_within(const calotte_locator* locator,
+                                                    const double* positions, int64_t n,
+                                                    double distance, int64_t* begin, int32_t* sites,
+                                                    calotte_error* error);
+
 /** Interpolates values at the sites of a mesh to n positions.
  * values: one for each site.
  * positions: as for calotte_locate().
@@ -174,6 +209,27 @@ CALOTTE_C_API calotte_status calotte_locate(const calotte_mesh* mesh, const doub
 CALOTTE_C_API calotte_status calotte_interpolate(const calotte_mesh* mesh, const double* values,
                                                  const double* positions, int64_t n, int natural,
                                                  double* out, calotte_error* error);
+
+/* ---- Weights */
+
+/** Where cells end at the edge of a set of points, as calotte::EdgeCells. */
+typedef enum calotte_edge {
+  CALOTTE_EDGE_USUAL = 0,      /**< whole around the sphere and in rings, else neighbours */
+  CALOTTE_EDGE_WHOLE = 1,      /**< nowhere: Voronoi cells */
+  CALOTTE_EDGE_HULL = 2,       /**< at the convex hull of the points */
+  CALOTTE_EDGE_NEIGHBOURS = 3, /**< half way to the neighbours, mirrored at their point */
+  CALOTTE_EDGE_REACH = 4       /**< all at a distance from their point */
+} calotte_edge;
+
+/** The areas of the Voronoi cells of n points; equal points share theirs.
+ * points, surface: as for calotte_delaunay(); rings bound the cells, on the sphere, too.
+ * edge: a calotte_edge.
+ * reach: with CALOTTE_EDGE_REACH, more than 0; an angle of at most pi/2, or a length.
+ * weights: n; steradians, or the square of the plane's unit. */
+CALOTTE_C_API calotte_status calotte_area_weights(const double* points, int64_t n,
+                                                  const calotte_surface* surface, int64_t edge,
+                                                  double reach, double* weights,
+                                                  calotte_error* error);
 
 /* ---- Voronoi cells */
 

@@ -5,6 +5,7 @@
 #include "c/mesh.h"
 #include "c/recipe.h"
 
+#include <calotte/area_weights.h>
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/locate.h>
@@ -21,6 +22,11 @@
 
 struct calotte_cells {
   calotte::Voronoi cells;
+};
+
+struct calotte_locator {
+  calotte::Locator locator;
+  int rows; ///< of positions
 };
 
 namespace calotte {
@@ -55,6 +61,11 @@ CheckReport run_check(const Mesh& mesh) {
 template <class Values> void copy(const Values& values, typename Values::Scalar* out) {
   if (out != nullptr)
     std::copy_n(values.data(), values.size(), out);
+}
+
+const calotte_locator& locator_of(const calotte_locator* locator) {
+  require(locator != nullptr, "the locator is a null pointer; give that of calotte_locator_make()");
+  return *locator;
 }
 
 } // namespace
@@ -111,6 +122,76 @@ calotte_status calotte_locate(const calotte_mesh* mesh, const double* positions,
     copy(found.triangle, triangles);
     copy(found.weights, weights);
     copy(found.nearest, nearest);
+  });
+}
+
+void calotte_locator_free(calotte_locator* locator) { delete locator; }
+
+calotte_status calotte_locator_make(const calotte_mesh* mesh, calotte_locator** locator,
+                                    calotte_error* error) {
+  return guarded(error, [&] {
+    const Mesh& made = mesh_of(mesh);
+    require(locator != nullptr,
+            "the pointer that receives the locator is null; give the address of one");
+    *locator = new calotte_locator{Locator(made), rows_of(made.surface)};
+  });
+}
+
+calotte_status calotte_locator_find(const calotte_locator* locator, const double* positions,
+                                    int64_t n, const int32_t* hints, int32_t* triangles,
+                                    double* weights, int32_t* nearest, calotte_error* error) {
+  return guarded(error, [&] {
+    const calotte_locator& in = locator_of(locator);
+    const auto points = points_of(positions, n, in.rows, "the positions");
+    const Ids near = hints == nullptr ? Ids() : Ids(Eigen::Map<const Ids>(hints, n));
+    const Locations found = in.locator.find(points, near);
+    copy(found.triangle, triangles);
+    copy(found.weights, weights);
+    copy(found.nearest, nearest);
+  });
+}
+
+calotte_status calotte_locator_nearest(const calotte_locator* locator, const double* positions,
+                                       int64_t n, int64_t k, int32_t* sites, calotte_error* error) {
+  return guarded(error, [&] {
+    const calotte_locator& in = locator_of(locator);
+    const auto points = points_of(positions, n, in.rows, "the positions");
+    require(sites != nullptr || n == 0,
+            "the array that receives the sites is a null pointer; give one of n k");
+    const IdLists found = in.locator.nearest_few(points, k);
+    require(found.items.size() == n * k,
+            "k is {}, and the mesh has fewer sites; give at most as many", k);
+    copy(found.items, sites);
+  });
+}
+
+calotte_status calotte_locator_within(const calotte_locator* locator, const double* positions,
+                                      int64_t n, double distance, int64_t* begin, int32_t* sites,
+                                      calotte_error* error) {
+  return guarded(error, [&] {
+    const calotte_locator& in = locator_of(locator);
+    const auto points = points_of(positions, n, in.rows, "the positions");
+    require(begin != nullptr,
+            "the array that receives the starts of the lists is a null pointer; give one of n + 1");
+    const IdLists found = in.locator.within(points, distance);
+    copy(found.begin, begin);
+    copy(found.items, sites);
+  });
+}
+
+calotte_status calotte_area_weights(const double* points, int64_t n, const calotte_surface* surface,
+                                    int64_t edge, double reach, double* weights,
+                                    calotte_error* error) {
+  return guarded(error, [&] {
+    const Surface where = surface_of(surface);
+    const auto given = points_of(points, n, rows_of(where), "the points");
+    require(weights != nullptr, "the array that receives the weights is a null pointer; give one");
+    require(edge >= CALOTTE_EDGE_USUAL && edge <= CALOTTE_EDGE_REACH, "edge is {}; give 0 to {}",
+            edge, static_cast<int>(CALOTTE_EDGE_REACH));
+    AreaWeightOptions options{.reach = reach};
+    if (edge != CALOTTE_EDGE_USUAL)
+      options.edge = static_cast<EdgeCells>(edge - 1);
+    copy(area_weights(given, where, options), weights);
   });
 }
 

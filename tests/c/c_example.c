@@ -209,6 +209,64 @@ static void surfaces(void) {
   expect(mesh == NULL, "outputs stay unchanged");
 }
 
+static void searches(void) {
+  const double at[] = {1, 1, 1, 3, 0, 0, -1, 2, -3}, bad[] = {0, 0, 0};
+  int32_t triangles[3], again[3], nearest[3], sites[18];
+  const int32_t far[] = {-1, 5, 7}, wrong[] = {0, 8, 0};
+  int64_t begin[4];
+  calotte_mesh* mesh = mesh_of(octahedron, 6, NULL, "an octahedron");
+  calotte_locator* locator = NULL;
+  int i;
+  succeeds(calotte_locator_make(mesh, &locator, &error), "prepare");
+  succeeds(calotte_locate(mesh, at, 3, triangles, NULL, nearest, &error), "locate");
+  succeeds(calotte_locator_find(locator, at, 3, far, again, NULL, NULL, &error), "with hints");
+  for (i = 0; i < 3; ++i)
+    expect(again[i] == triangles[i], "hints change nothing");
+  succeeds(calotte_locator_find(locator, at, 3, NULL, again, NULL, NULL, &error), "no hints");
+  succeeds(calotte_locator_nearest(locator, at, 3, 6, sites, &error), "six nearest");
+  for (i = 0; i < 3; ++i)
+    expect(sites[6 * i] == nearest[i], "the nearest first");
+  expect(sites[0] + sites[1] + sites[2] == 0 + 2 + 4 && sites[0] < sites[1], "ties by id");
+  succeeds(calotte_locator_within(locator, at, 3, 1, begin, NULL, &error), "count");
+  expect(begin[0] == 0 && begin[1] == 3 && begin[2] == 4 && begin[3] == 6, "those within a radian");
+  succeeds(calotte_locator_within(locator, at, 3, 1, begin, sites, &error), "within");
+  expect(sites[0] == 0 && sites[1] == 2 && sites[2] == 4 && sites[3] == 0, "ascending");
+  refuses(calotte_locator_find(locator, at, 3, wrong, again, NULL, NULL, &error), "hint 1 is 8");
+  refuses(calotte_locator_nearest(locator, at, 3, 7, sites, &error), "k is 7");
+  refuses(calotte_locator_nearest(locator, at, 3, 0, sites, &error), "k is 0");
+  refuses(calotte_locator_nearest(locator, at, 3, 1, NULL, &error), "null pointer");
+  refuses(calotte_locator_within(locator, at, 3, 4, begin, sites, &error), "at most pi");
+  refuses(calotte_locator_within(locator, at, 3, 1, NULL, NULL, &error), "null pointer");
+  refuses(calotte_locator_find(NULL, at, 3, NULL, NULL, NULL, NULL, &error), "null pointer");
+  refuses(calotte_locator_make(NULL, &locator, &error), "null pointer");
+  refuses(calotte_locator_make(mesh, NULL, &error), "null");
+  expect(calotte_locator_find(locator, bad, 1, NULL, NULL, NULL, NULL, &error) ==
+             CALOTTE_ZERO_VECTOR,
+         "the zero vector");
+  calotte_locator_free(locator);
+  calotte_locator_free(NULL);
+  calotte_mesh_free(mesh);
+}
+
+static void area_weights(void) {
+  const double pi = 3.14159265358979323846;
+  double weights[7], points[21];
+  memcpy(points, octahedron, 18 * sizeof(double));
+  memcpy(points + 18, octahedron, 3 * sizeof(double));
+  succeeds(calotte_area_weights(points, 7, NULL, 0, 0, weights, &error), "weights");
+  expect(fabs(sum(weights, 7) - 4 * pi) < 1e-14 && weights[6] == weights[0] &&
+             fabs(weights[1] / weights[0] - 2) < 1e-14,
+         "the sphere, with a point twice");
+  succeeds(calotte_area_weights(points, 6, NULL, CALOTTE_EDGE_REACH, 0.5, weights, &error),
+           "discs");
+  expect(fabs(weights[3] - 2 * pi * (1 - cos(0.5))) < 1e-15, "discs apart");
+  succeeds(calotte_area_weights(square, 5, &plane, CALOTTE_EDGE_HULL, 0, weights, &error), "plane");
+  expect(fabs(sum(weights, 5) - 1) < 1e-15, "a square");
+  refuses(calotte_area_weights(points, 6, NULL, 5, 0, weights, &error), "edge is 5");
+  refuses(calotte_area_weights(points, 6, NULL, 0, 0, NULL, &error), "null pointer");
+  refuses(calotte_area_weights(points, 6, NULL, CALOTTE_EDGE_REACH, 0, weights, &error), "reach");
+}
+
 static void positions(void) {
   const double at[] = {1, 1, 1, 3, 0, 0, -1, 2, -3}, outside[] = {0.25, 0.25, 5, 5};
   double values[6], weights[9], out[3];
@@ -654,6 +712,8 @@ int main(int argc, char** argv) {
   planes();
   surfaces();
   positions();
+  searches();
+  area_weights();
   recipe_sizes();
   shorter_recipes();
   other_sizes();

@@ -23,6 +23,14 @@ void look_up(const calotte_mesh* mesh, const Eigen::MatrixXd& positions) {
     for (std::size_t i = 0; i < n; ++i)
       require(triangles[i] >= -1 && triangles[i] < view.triangles && nearest[i] >= 0 &&
               nearest[i] < view.sites);
+  calotte_locator* locator = nullptr;
+  if (calotte_locator_make(mesh, &locator, nullptr) == 0) {
+    std::vector<std::int32_t> sites(n, -2);
+    if (calotte_locator_nearest(locator, positions.data(), positions.cols(), 1, sites.data(),
+                                nullptr) == 0)
+      require(sites == nearest);
+    calotte_locator_free(locator);
+  }
   for (const int natural : {0, 1})
     calotte_interpolate(mesh, ones.data(), positions.data(), positions.cols(), natural,
                         values.data(), nullptr);

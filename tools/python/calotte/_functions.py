@@ -84,7 +84,7 @@ def delaunay(points: ArrayLike, surface: SurfaceLike | None = None, *, merge_wit
 
 
 def area_weights(points: ArrayLike, surface: SurfaceLike | None = None, *, edge: str | float | None = None,
-                 gap: float = 3.0, merge_within: float = 0.0) -> Array:
+                 gap: float = 4.0, merge_within: float = 0.0) -> Array:
     """The area of each point's Voronoi cell, such as the weights of the nodes of a mean or of a loss
     function. Equal points share their cell in equal parts.
 
