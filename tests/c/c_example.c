@@ -227,9 +227,9 @@ static void searches(void) {
   for (i = 0; i < 3; ++i)
     expect(sites[6 * i] == nearest[i], "the nearest first");
   expect(sites[0] + sites[1] + sites[2] == 0 + 2 + 4 && sites[0] < sites[1], "ties by id");
-  succeeds(calotte_locator_within(locator, at, 3, 1, begin, NULL, &error), "count");
-  expect(begin[0] == 0 && begin[1] == 3 && begin[2] == 4 && begin[3] == 6, "those within a radian");
-  succeeds(calotte_locator_within(locator, at, 3, 1, begin, sites, &error), "within");
+  succeeds(calotte_locator_within(locator, at, 3, 1.1, begin, NULL, &error), "count");
+  expect(begin[0] == 0 && begin[1] == 3 && begin[2] == 4 && begin[3] == 6, "those within 1.1");
+  succeeds(calotte_locator_within(locator, at, 3, 1.1, begin, sites, &error), "within");
   expect(sites[0] == 0 && sites[1] == 2 && sites[2] == 4 && sites[3] == 0, "ascending");
   refuses(calotte_locator_find(locator, at, 3, wrong, again, NULL, NULL, &error), "hint 1 is 8");
   refuses(calotte_locator_nearest(locator, at, 3, 7, sites, &error), "k is 7");
