@@ -664,7 +664,7 @@ TEST_CASE("invalid NetCDF rasters give an error of one line that names the defec
       refused([&](StoredRaster& r) { r.lon.back() = 180; }).starts_with(": cellWidth differs at"));
   CHECK(refusal_of_widths(folder("text.nc", "cellWidth")) != "not refused");
   CHECK(refusal_of_widths(folder("widths.txt"), {}, ErrorCode::invalid_argument) ==
-        ": unknown suffix of a file of cell widths; give .nc, .msh, .geojson or .toml");
+        ": unknown suffix of a file of cell widths; give .nc, .msh, .geojson, .shp or .toml");
   CHECK_THROWS_AS(read_cell_width(folder("absent.nc")), Error);
   CHECK_THROWS_AS(read_cell_width(folder("absent.msh")), Error);
 

@@ -159,3 +159,16 @@ def test_area_weights():
                        (lambda: calotte.area_weights(square, calotte.plane(), edge="whole"), "unbounded")]:
         with pytest.raises(calotte.Error, match=text):
             call()
+
+
+def test_cells_at():
+    mesh = calotte.delaunay(calotte.random_points(800, seed=3))
+    positions = calotte.random_points(5000, seed=8)
+    cells = calotte.voronoi(mesh)
+    polygons = calotte.Polygons(cells.vertices, cells.begin, cells.vertices_on_cell)
+    assert (calotte.cells_at(polygons, positions) == nearest(mesh.points, positions)).all()
+    assert (calotte.cells_at(polygons, calotte.to_lonlat(positions)) == calotte.cells_at(polygons, positions)).all()
+    with pytest.raises(calotte.Error, match="for a Mesh use locate"):
+        calotte.cells_at(mesh, positions)
+    with pytest.raises(calotte.Error, match="position 1 is not finite"):
+        calotte.cells_at(polygons, [(0, 0), (np.nan, 0)])

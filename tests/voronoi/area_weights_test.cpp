@@ -40,7 +40,8 @@ Points3 lat_lon_part(double west, double south, double step, int columns, int ro
 double counted_area(const Points3& points, Eigen::Index i, double reach) {
   const Eigen::Vector3d x = points.col(i).normalized(), across = x.unitOrthogonal(),
                         along = x.cross(across);
-  constexpr int rings = 400, rays = 1600;
+  constexpr int rings = 100, rays = 500;
+  const Eigen::MatrixX3d units = points.colwise().normalized().transpose();
   double area = 0;
   for (int r = 0; r < rings; ++r) {
     const double radius = (r + 0.5) / rings * reach;
@@ -50,7 +51,7 @@ double counted_area(const Points3& points, Eigen::Index i, double reach) {
       const Eigen::Vector3d p = std::cos(radius) * x + std::sin(radius) * (std::cos(turn) * across +
                                                                            std::sin(turn) * along);
       Eigen::Index nearest = 0;
-      (points.colwise().normalized().transpose() * p).maxCoeff(&nearest);
+      (units * p).maxCoeff(&nearest);
       inside += nearest == i ? 1 : 0;
     }
     area += inside * (2 * pi / rays) * (reach / rings) * std::sin(radius);

@@ -15,7 +15,7 @@ from calotte import _calotte, widths
 
 GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "gates", "operator_errors",
-                                  "neighbours", "locate", "area_weights", "interpolate", "interpolate_scattered",
+                                  "neighbours", "locate", "cells_at", "area_weights", "interpolate", "interpolate_scattered",
                                   "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
     ("Grids", ["cvt", "plan", "refine", "coarsen", "rotate", "limited_area", "multimesh", "density"]),

@@ -327,6 +327,24 @@ def locate(mesh: Mesh, positions: ArrayLike) -> Locations:
     return _calotte.locate(mesh, _positions(mesh, positions))
 
 
+def cells_at(cells: Polygons, positions: ArrayLike) -> Array:
+    """The polygon that contains each position, such as the faces of a UGRID file in which particles are.
+
+    cells: Polygons, on the sphere of arcs of great circles; they may be concave.
+    positions: as for locate().
+    Returns k ids, of several polygons the lowest; -1 where there is none. Sides belong to both polygons
+    beside them, up to rounding. Raises Error, with the index of the position.
+
+    >>> dual = voronoi(delaunay(fibonacci_sphere(1000)))
+    >>> cells = Polygons(dual.vertices, dual.begin, dual.vertices_on_cell)
+    >>> cells_at(cells, [(-105.0, 40.0), (0.0, 90.0)]).shape
+    (2,)
+    """
+    if not isinstance(cells, Polygons):
+        raise Error(f"the cells are {type(cells).__name__}; give Polygons, or for a Mesh use locate()")
+    return _calotte.cells_at(cells, _arguments.points_of(cells.surface, positions, "positions"))
+
+
 _NO_HINTS = np.empty(0, np.int32)
 
 

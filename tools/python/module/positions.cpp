@@ -7,6 +7,7 @@
 
 #include <calotte/area_weights.h>
 #include <calotte/locate.h>
+#include <calotte/remap.h>
 
 #include <pybind11/stl.h>
 
@@ -62,6 +63,10 @@ void add_positions(py::module_& module) {
              "(k,) the nearest site, the lowest of those that are equally near."});
   type.def("__len__", [](const Locations& locations) { return locations.triangle.size(); });
   module.def("locate", &locate_in);
+  module.def("cells_at", [](const Polygons& cells, const Doubles& positions) {
+    const auto places = columns(positions);
+    return handed_over(call([&] { return cells_at(cells, places); }));
+  });
   module.def("area_weights", &weights_of);
   py::class_<Locator>(module, "Locator")
       .def(py::init([](const Mesh& mesh) { return call([&] { return Locator(mesh); }); }),
