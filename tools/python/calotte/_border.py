@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Words for errors about the arguments of the package's functions.
+"""The arguments of the package's functions: objects in place of files, and words for errors.
 
 After an error the arguments are compared with the annotations of the function. The first that does not fit is named in one
 line, with what it is and what to give. Nothing is compared before an error: a function may take more than it says.
@@ -15,6 +15,7 @@ import typing
 
 import numpy as np
 
+from . import _objects
 from ._calotte import Density, Error, Mesh, Polygons, Surface
 
 _WORDS = {int: "a whole number", float: "a number", bool: "True or False", str: "text", os.PathLike: "the name of a file",
@@ -28,6 +29,8 @@ def _kinds(annotation):
         kinds = [_kinds(each) for each in typing.get_args(annotation)]
         return [kind for each in kinds for kind in each] if all(kinds) else []
     kind = typing.get_origin(annotation) or annotation
+    if kind in (_objects.Geometries, _objects.LabelledRaster):  # it became a file
+        return [os.PathLike]
     if kind in (Density, Surface):  # _arguments knows what else may be one
         return []
     known = isinstance(kind, type) and kind not in (np.ndarray, typing.Any) and not getattr(kind, "_is_protocol", False)
@@ -103,7 +106,8 @@ def checked(function):
     def call(*given, **words):
         bound = _bound(signature, function.__name__, given, words)
         try:
-            return function(*given, **words)
+            with _objects.in_files(bound, plane=function.__name__ == "planar_polygon"):
+                return function(*bound.args, **bound.kwargs)
         except Error:
             raise
         except (AttributeError, TypeError, ValueError) as error:

@@ -17,6 +17,7 @@ from ._arguments import EARTH_RADIUS_KM
 from ._calotte import (Check, Density, Error, IdLists, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi)
 from ._fields import content_of
+from ._objects import Geometries, LabelledRaster
 from ._oceans import ClosedSea, GeneralisedSea
 
 Array = NDArray[np.float64]
@@ -24,7 +25,7 @@ Path = str | os.PathLike[str]
 Grid = Mesh | Polygons
 DensityLike = str | Sequence[str] | Density | Callable[[Array], ArrayLike]
 WidthLike = Any  #: a number, a file, (values, lon, lat or x, y), a DataArray or a function
-SurfaceLike = Path | Surface | GeneralisedSea
+SurfaceLike = Path | Surface | GeneralisedSea | Geometries
 Progress = Callable[[dict[str, Any]], "bool | None"]
 
 _USUAL = _calotte.Recipe()  #: the library's defaults
@@ -910,7 +911,7 @@ def _reporting(progress):
 def cvt(cells: int | None = None, *, density: DensityLike | None = None,
         cell_width: WidthLike = None, surface: SurfaceLike | None = None,
         points: ArrayLike | None = None, fixed: ArrayLike | None = None,
-        lines: Path | Sequence[ArrayLike] | None = None, seed: int = _USUAL.seed,
+        lines: Path | Geometries | Sequence[ArrayLike | Geometries] | None = None, seed: int = _USUAL.seed,
         method: str = _USUAL.method, norm: str = _USUAL.norm, tolerance: float | None = None,
         max_iterations: int = _USUAL.max_iterations, well_centred: bool | None = None,
         least_spacing: float = _USUAL.least_spacing,
@@ -1434,17 +1435,22 @@ def box(west: float, south: float, east: float, north: float) -> Surface:
     return _calotte.box(*(math.radians(side) for side in (west, south, east, north)))
 
 
-def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Surface:
+def polygon(*rings: ArrayLike | Path | Geometries, inside: ArrayLike | None = None) -> Surface:
     """The region that rings enclose, each k x 2 longitudes and latitudes in degrees or k x 3.
 
     Rings may run either way, be closed, and reach a pole along a meridian. They enclose the side
     without poles; if both sides have one, the smaller side.
 
+    A single file in place of rings is read as by `calotte cvt --region`; geometries, too.
     inside: a point (longitude and latitude, or a vector) of the region, which decides instead.
 
     >>> round(polygon([(0, 0), (90, 0), (0, 90)]).area / (4 * math.pi), 12)
     0.125
     """
+    if len(rings) == 1 and isinstance(rings[0], (str, os.PathLike)):
+        if inside is not None:
+            raise Error("a file says by its property inside which side its rings enclose; leave inside out")
+        return _arguments.surface(rings[0], plane=False)
     return _calotte.polygon([_arguments.sphere_points(ring, "corners") for ring in rings],
                             None if inside is None
                             else _arguments.direction(inside, "the point inside"))
@@ -1470,10 +1476,10 @@ def periodic_box(x: float, y: float) -> Surface:
     return _calotte.periodic_box([x, y])
 
 
-def planar_polygon(*rings: ArrayLike | Path) -> Surface:
+def planar_polygon(*rings: ArrayLike | Path | Geometries) -> Surface:
     """The domain inside rings of k x 2 corners: what an odd number of them contains.
 
-    A single file in place of rings is read as by `calotte cvt --domain`.
+    A single file in place of rings is read as by `calotte cvt --domain`; geometries, too.
     """
     if len(rings) == 1 and isinstance(rings[0], (str, os.PathLike)):
         return _arguments.surface(rings[0], plane=True)
@@ -1701,12 +1707,12 @@ def _warn_of_passages(stranded, where):
                         "sea")
 
 
-def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = None,
-         coast: Path | None = None, raster: Path | None = None, raster_variable: str = "",
+def cull(source: Path, target: Path, *, land: Path | Geometries | Sequence[Path | Geometries] | None = None,
+         coast: Path | Geometries | None = None, raster: Path | LabelledRaster | None = None, raster_variable: str = "",
          raster_values: str = "height", land_fraction: float = 0.5, field: str = "",
          field_file: Path | None = None, sea_below: float | None = None,
-         sea_from: float | None = None, passages: Path | Sequence[Path] | None = None,
-         barriers: Path | Sequence[Path] | None = None, fill: bool = True, seeds: ArrayLike = (),
+         sea_from: float | None = None, passages: Path | Geometries | Sequence[Path | Geometries] | None = None,
+         barriers: Path | Geometries | Sequence[Path | Geometries] | None = None, fill: bool = True, seeds: ArrayLike = (),
          least_area: float = 0, sea_ice_latitude: float | None = None,
          land_mesh: Path | None = None, mask: Path | None = None, cell_map: Path | None = None,
          sphere_radius: float | None = None, model: str | None = None) -> dict[str, Any]:
@@ -1750,9 +1756,9 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     return report
 
 
-def generalised_sea(coast: Path | Sequence[Path], cell_width: WidthLike, *,
+def generalised_sea(coast: Path | Geometries | Sequence[Path | Geometries], cell_width: WidthLike, *,
                     region: SurfaceLike | None = None, least_island: float = 1.0,
-                    passages: Path | Sequence[Path | ArrayLike] | None = None, seeds: ArrayLike = (),
+                    passages: Path | Geometries | Sequence[Path | Geometries | ArrayLike] | None = None, seeds: ArrayLike = (),
                     earth_radius: float = EARTH_RADIUS_KM) -> GeneralisedSea:
     """The region of the sea at the widths of a grid, for a grid that ends at the coast, as `calotte
     coast` makes it.

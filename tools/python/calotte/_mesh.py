@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Methods of Mesh, Polygons and Surface that are written in Python."""
+import json
 import math
 import os
 import tempfile
@@ -7,7 +8,7 @@ import types
 
 import numpy as np
 
-from . import _arguments, _calotte, _fields, _functions, _labels, _plot, _units
+from . import _arguments, _calotte, _fields, _functions, _graphs, _labels, _plot, _units
 
 
 def _cells(mesh):
@@ -100,6 +101,41 @@ def _to_xarray(grid, format="mpas", order="input", **options):
         return xarray.load_dataset(path)
 
 
+def _features(write):
+    """The features of the GeoJSON that write(path) makes, which is split where it crosses 180 degrees."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "cells.geojson")
+        write(path)
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)["features"]
+
+
+def _to_geodataframe(grid, **options):
+    """A geopandas.GeoDataFrame of the cells in longitude and latitude, in their order, with their areas
+    and the fields of the file as columns. Cells that cross 180 degrees are split, and that at a pole
+    reaches it. Options as write(). It needs geopandas."""
+    return _graphs.frame(_features(lambda path: _functions.write(path, grid, order="input", **options)))
+
+
+def _region_to_geodataframe(surface):
+    """A geopandas.GeoDataFrame of a region of the sphere, in longitude and latitude. It needs geopandas."""
+    return _graphs.frame(_features(surface.write))
+
+
+def _to_scipy_sparse(grid):
+    """Which cells are neighbours, as a symmetric scipy.sparse.csr_array of ones, n x n. It needs scipy."""
+    around = _functions.neighbours(grid)
+    return _graphs.sparse(np.repeat(np.arange(len(around)), np.diff(around.begin)), around.ids, len(around))
+
+
+def _to_networkx(grid):
+    """The cells and their neighbours as a networkx.Graph. It needs networkx."""
+    around = _functions.neighbours(grid)
+    cells = np.repeat(np.arange(len(around)), np.diff(around.begin))
+    once = cells < around.ids
+    return _graphs.graph(np.stack([cells[once], around.ids[once]], axis=1), len(around))
+
+
 def _topology(mesh):
     """The arguments of uxarray.Grid.from_topology for the cells of the mesh."""
     if not mesh.surface.is_sphere:
@@ -164,6 +200,7 @@ _calotte.OperatorErrors.wave_step = _wave_step
 _calotte.OperatorErrors.diffusion_step = _diffusion_step
 _calotte.Surface.contains = _contains
 _calotte.Surface.write = _write_region
+_calotte.Surface.to_geodataframe = _region_to_geodataframe
 for _class in (_calotte.Mesh, _calotte.Polygons):
     _class.fields = property(_file_fields, doc=_file_fields.__doc__)
     _class.earth_radius = property(_earth_radius, doc=_earth_radius.__doc__)
@@ -171,6 +208,9 @@ for _class in (_calotte.Mesh, _calotte.Polygons):
     _class.lat = property(_lat, doc=_lat.__doc__)
     _class.to_mpas = _to_mpas
     _class.to_xarray = _to_xarray
+    _class.to_geodataframe = _to_geodataframe
+    _class.to_networkx = _to_networkx
+    _class.to_scipy_sparse = _to_scipy_sparse
     _class.plot = _plot.plot
     _class.topology = _topology
 _calotte.Polygons.shapes = _shapes

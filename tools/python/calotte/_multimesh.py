@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments, _calotte, _display, _functions
+from . import _arguments, _calotte, _display, _functions, _graphs
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import Error, Mesh
 from ._functions import Array, DensityLike, Locator, Progress, SurfaceLike, WidthLike
@@ -126,24 +126,13 @@ class Multimesh:
 
     def to_scipy_sparse(self, level: int | None = None) -> Any:
         """The edges as a symmetric scipy.sparse.csr_array of ones, n x n. level: as for edges(). It needs scipy."""
-        try:
-            from scipy.sparse import csr_array
-        except ImportError:
-            raise ImportError("to_scipy_sparse() needs scipy; install it, on Debian python3-scipy") from None
         sources, targets = self.edges(level)
         size = self.level_sizes[-1 if level is None else level]
-        return csr_array((np.ones(len(sources)), (sources, targets)), shape=(size, size))
+        return _graphs.sparse(sources, targets, size)
 
     def to_networkx(self, level: int | None = None) -> Any:
         """The nodes and edges as a networkx.Graph. level: as for edges(). It needs networkx."""
-        try:
-            from networkx import Graph
-        except ImportError:
-            raise ImportError("to_networkx() needs networkx; install it, on Debian python3-networkx") from None
-        graph = Graph()
-        graph.add_nodes_from(range(self.level_sizes[-1 if level is None else self._level(level)]))
-        graph.add_edges_from(self._pairs(level).tolist())
-        return graph
+        return _graphs.graph(self._pairs(level), self.level_sizes[-1 if level is None else self._level(level)])
 
     def __len__(self) -> int:
         return len(self.meshes[-1])
