@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 using namespace calotte;
@@ -220,7 +221,8 @@ TEST_CASE("weights have the same bits for any number of threads, and follow a pe
 
 TEST_CASE("options of weights are checked") {
   const Points3 points = fibonacci_sphere(50);
-  const auto refusal = [&](const AreaWeightOptions& options, const Surface& surface = {}) {
+  const auto refusal = [&](const AreaWeightOptions& options,
+                           const Surface& surface = {}) -> std::string {
     return error_of([&] { area_weights(points, surface, options); }).what();
   };
   CHECK(has(refusal({.edge = EdgeCells::reach}), "the reach of cells is 0; give a positive"));
