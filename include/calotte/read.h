@@ -97,8 +97,8 @@ Surface read_domain(const std::string& path);
 /// the rule of enclosed_region() whichever way they run. If a feature names a point inside by the
 /// property "inside": [longitude, latitude], its rings enclose the side that contains the point.
 ///
-/// .shp: the polygons of a shapefile, with its index .shx beside it, in longitude and latitude by its
-/// .prj.
+/// .shp: the polygons of a shapefile, with its index .shx beside it, in longitude and latitude by
+/// its .prj.
 ///
 /// .pts: a point file of MPAS-Limited-Area, of the type custom, circle, ellipse or channel.
 /// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229
