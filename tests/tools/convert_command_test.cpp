@@ -523,7 +523,7 @@ TEST_CASE("cull: the coast of GSHHG, maps of cells; the land around a place as a
   CHECK(has(made.out, " in the region and "));
   check_refusals(bench, "cull global.nc -o bad.nc",
                  "--land " CALOTTE_GSHHG "/binned_border_c.nc | 2 | land is polygons of GeoJSON or "
-                                         "a shapefile, or a binned file of GSHHG");
+                 "a shapefile, or a binned file of GSHHG");
   bench.file("inland.geojson",
              R"({"type": "LineString", "coordinates": [[134, -25], [134.5, -25]]})");
   check_refusals(
