@@ -74,13 +74,17 @@ FieldGrid read_positions(const std::string& path, const ColumnChoice& choice = {
 /// Reads a mesh file of any format, see read_mesh_file(), or a raster: a NetCDF file with the
 /// coordinate variables lat(lat) and lon(lon), latitude and longitude, or others whose
 /// standard_name or units say so. Where these have bounds, the boxes are those; else see
-/// lon_lat_boxes(). Fields of a raster have both dimensions, and any others, in any order. Values
-/// are what their attributes say: unpacked, unsigned, and NaN where they are missing or out of
-/// range, and where a mask leaves the cell out.
+/// lon_lat_boxes(). Or a raster in the plane of a projection, whose variables have the attribute
+/// grid_mapping (CF conventions, Appendix F): polar_stereographic, lambert_conformal_conic,
+/// lambert_azimuthal_equal_area or rotated_latitude_longitude. Its cells are polygons with corners
+/// half way between nodes, of geodetic latitudes. Fields of a raster have both dimensions, and any
+/// others, in any order. Values are what their attributes say: unpacked, unsigned, and NaN where
+/// they are missing or out of range, and where a mask leaves the cell out.
 /// \param choice of the fields at chosen indices.
 /// \param choices indices of the dimensions of fields, such as a time, for those that have them.
-/// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name; invalid_argument as
-///         find_indices(), and for an index that belongs to no field.
+/// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name; parse for a grid
+///         mapping that is not read; invalid_argument as find_indices(), and for an index that
+///         belongs to no field.
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all,
                           const std::vector<FieldIndex>& choices = {});
 

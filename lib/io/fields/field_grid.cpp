@@ -12,6 +12,7 @@
 #include "io/command.h"
 #include "io/fields/cell_dimension.h"
 #include "io/fields/centres.h"
+#include "io/fields/projected_grid.h"
 #include "io/fields/raster_grid.h"
 #include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
@@ -313,6 +314,11 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice,
     const NetcdfReader file(path);
     if (const std::optional<RasterAxes> axes = raster_axes(file)) {
       FieldGrid raster = read_raster_grid(file, *axes, choice, choices);
+      require_records(path, raster, choice);
+      return raster;
+    }
+    if (const std::optional<ProjectedAxes> axes = projected_axes(file)) {
+      FieldGrid raster = read_projected_grid(file, *axes, choice, choices);
       require_records(path, raster, choice);
       return raster;
     }

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/fields/projected_grid.h"
+
+#include "base/lonlat.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "io/cells/netcdf_fields.h"
+#include "io/netcdf/cf_values.h"
+#include "io/netcdf/projection.h"
+
+#include <calotte/read.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+/// Whether a dimension's variable is an axis of a projection, by its standard_name, its axis or its
+/// name.
+bool is_axis(const NetcdfReader& file, const std::string& name, char letter) {
+  if (!file.is_numeric(name) || file.dimensions_of(name) != std::vector<std::string>{name})
+    return false;
+  const bool is_x = letter == 'x';
+  const std::string standard = file.text(name, "standard_name"), axis = file.text(name, "axis");
+  return standard == (is_x ? "projection_x_coordinate" : "projection_y_coordinate") ||
+         standard == (is_x ? "grid_longitude" : "grid_latitude") || axis == (is_x ? "X" : "Y") ||
+         (standard.empty() && axis.empty() && (name == (is_x ? "x" : "y")));
+}
+
+std::string find_axis(const NetcdfReader& file, const std::vector<std::string>& dimensions,
+                      char letter) {
+  const auto found = std::ranges::find_if(dimensions, [&](const std::string& name) {
+    return file.has_variable(name) && is_axis(file, name, letter);
+  });
+  return found == dimensions.end() ? "" : *found;
+}
+
+/// The sides of the boxes of nodes, in the unit of the projection.
+std::vector<double> read_sides(const NetcdfReader& file, const std::string& axis,
+                               const Projection& projection) {
+  std::vector<double> nodes = cf_values(file, axis, {-1});
+  const std::size_t n = nodes.size();
+  if (n < 2)
+    file.fail("{} has {} values; give two nodes or more", axis, n);
+  const std::string unit = file.text(axis, "units");
+  if (!projection.of_degrees() && !unit.empty())
+    for (double& node : nodes)
+      node *= 1000 * kilometres_in(unit);
+  for (std::size_t i = 0; i < n; ++i)
+    if (!std::isfinite(nodes[i]) ||
+        (i > 1 && !((nodes[i] - nodes[i - 1]) * (nodes[1] - nodes[0]) > 0)) ||
+        (i == 1 && nodes[0] == nodes[1]))
+      file.fail("{}[{}] does not ascend or descend as those before do; sort them", axis, i);
+  std::vector<double> sides(n + 1);
+  for (std::size_t i = 1; i < n; ++i)
+    sides[i] = (nodes[i - 1] + nodes[i]) / 2;
+  sides[0] = nodes[0] - (sides[1] - nodes[0]);
+  sides[n] = nodes[n - 1] + (nodes[n - 1] - sides[n - 1]);
+  return sides;
+}
+
+/// The corners of all boxes, a row of x for each y.
+Points3 corners_of(const NetcdfReader& file, const Projection& projection,
+                   const std::vector<double>& x, const std::vector<double>& y) {
+  const std::int64_t wide = std::ssize(x);
+  Points3 corners(3, wide * std::ssize(y));
+  base_detail::for_each_block(
+      corners.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i != end; ++i) {
+          const auto [lon, lat] = projection.lonlat(x[static_cast<std::size_t>(i % wide)],
+                                                    y[static_cast<std::size_t>(i / wide)]);
+          base_detail::set_column(corners, i,
+                                  std::isfinite(lon) && std::abs(lat) <= 90
+                                      ? base_detail::from_lonlat(lon, lat)
+                                      : base_detail::Vec3{0, 0, 0});
+        }
+      });
+  for (std::int64_t i = 0; i < corners.cols(); ++i)
+    if (corners.col(i).isZero(0))
+      file.fail("the corner at x {}, y {} is outside of what the projection shows; leave these "
+                "cells out",
+                x[static_cast<std::size_t>(i % wide)], y[static_cast<std::size_t>(i / wide)]);
+  return corners;
+}
+
+/// The corners of each box, counter-clockwise seen from outside.
+IdLists boxes_of(std::int64_t columns, std::int64_t rows, bool turned) {
+  const std::int64_t count = columns * rows;
+  IdLists ids{Offsets::LinSpaced(count + 1, 0, 4 * count), Ids(4 * count)};
+  base_detail::for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const auto first = static_cast<std::int32_t>(i / columns * (columns + 1) + i % columns),
+                 above = static_cast<std::int32_t>(first + columns + 1);
+      std::array<std::int32_t, 4> box{first, first + 1, above + 1, above};
+      if (turned)
+        std::swap(box[1], box[3]);
+      std::ranges::copy(box, ids.items.data() + 4 * i);
+    }
+  });
+  return ids;
+}
+
+} // namespace
+
+std::optional<ProjectedAxes> projected_axes(const NetcdfReader& file) {
+  for (const std::string& name : file.variable_names()) {
+    const std::string text = file.text(name, "grid_mapping"),
+                      mapping = text.substr(0, text.find_first_of(": "));
+    if (mapping.empty() || !file.has_variable(mapping) ||
+        file.text(mapping, "grid_mapping_name").empty() ||
+        file.text(mapping, "grid_mapping_name") == "latitude_longitude")
+      continue;
+    const std::vector<std::string> dimensions = file.dimensions_of(name);
+    ProjectedAxes axes{find_axis(file, dimensions, 'x'), find_axis(file, dimensions, 'y'), mapping};
+    if (!axes.x.empty() && !axes.y.empty())
+      return axes;
+  }
+  return std::nullopt;
+}
+
+FieldGrid read_projected_grid(const NetcdfReader& file, const ProjectedAxes& axes,
+                              FieldChoice choice, const std::vector<FieldIndex>& choices) {
+  const Projection projection(file, axes.mapping);
+  const std::vector<double> x = read_sides(file, axes.x, projection),
+                            y = read_sides(file, axes.y, projection);
+  const std::int64_t columns = std::ssize(x) - 1, rows = std::ssize(y) - 1;
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max() / 4;
+  if (rows > most / columns - 1 || columns > most)
+    file.fail("{} x {} cells are more than {}; give a part of them, or coarser ones", columns, rows,
+              most);
+  FieldGrid grid{.name = file.path()};
+  grid.mesh.polygons = Polygons{.corners = corners_of(file, projection, x, y),
+                                .ids = boxes_of(columns, rows, (x[1] > x[0]) != (y[1] > y[0])),
+                                .centres = Points3(3, 0)};
+  read_fields_on(file, {axes.y, axes.x}, {axes.x, axes.y, axes.mapping}, choice, grid.fields,
+                 grid.ignored, choices);
+  return grid;
+}
+
+} // namespace calotte::io_detail

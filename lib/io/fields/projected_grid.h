@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/fields/room.h"
+#include "io/netcdf/netcdf_reader.h"
+
+#include <calotte/field_grid.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Rasters in the plane of a map projection.
+namespace calotte::io_detail {
+
+/// The variables of a raster's nodes, and the grid mapping of its projection.
+struct ProjectedAxes {
+  std::string x, y, mapping;
+};
+
+/// The axes of the first variable with a grid mapping other than latitude_longitude; none without
+/// one.
+std::optional<ProjectedAxes> projected_axes(const NetcdfReader& file);
+
+/// The cells between nodes of the projection as polygons of the sphere: corners half way between
+/// nodes, geodetic latitudes taken as those of the sphere.
+/// \throws Error as read_field_grid().
+FieldGrid read_projected_grid(const NetcdfReader& file, const ProjectedAxes& axes,
+                              FieldChoice choice, const std::vector<FieldIndex>& choices);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/netcdf/projection.h"
+#include "support/errors.h"
+#include "support/files.h"
+#include "support/text.h"
+
+#include <calotte/field_grid.h>
+#include <calotte/remap.h>
+
+#include <doctest/doctest.h>
+#include <netcdf.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+using calotte::io_detail::NetcdfReader;
+using calotte::io_detail::Projection;
+
+namespace {
+
+using Numbers = std::vector<std::pair<std::string, std::vector<double>>>;
+
+const Numbers wgs84{{"semi_major_axis", {6378137}}, {"inverse_flattening", {298.257223563}}},
+    greenland{{"latitude_of_projection_origin", {90}},
+              {"standard_parallel", {70}},
+              {"straight_vertical_longitude_from_pole", {-45}}};
+
+/// A raster of a projection with a field of j + 10 i at the node j of y and i of x.
+struct ProjectedRaster {
+  std::string mapping = "polar_stereographic";
+  Numbers numbers = greenland;
+  std::vector<double> x{-300e3, -100e3, 100e3, 300e3}, y{-900e3, -1000e3, -1100e3};
+  std::string unit = "m";
+  bool x_first = false;
+
+  void write(const std::string& path) const {
+    int file = 0, dims[2], variables[2], crs = 0, field = 0;
+    REQUIRE(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &file) == NC_NOERR);
+    const auto text = [&](int variable, const char* name, const std::string& value) {
+      REQUIRE(nc_put_att_text(file, variable, name, value.size(), value.c_str()) == NC_NOERR);
+    };
+    for (int k = 0; k < 2; ++k) {
+      const std::vector<double>& nodes = k == 0 ? x : y;
+      nc_def_dim(file, k == 0 ? "x" : "y", nodes.size(), dims + k);
+      nc_def_var(file, k == 0 ? "x" : "y", NC_DOUBLE, 1, dims + k, variables + k);
+      text(variables[k], "units", unit);
+      text(variables[k], "standard_name",
+           k == 0 ? "projection_x_coordinate" : "projection_y_coordinate");
+    }
+    nc_def_var(file, "crs", NC_INT, 0, nullptr, &crs);
+    text(crs, "grid_mapping_name", mapping);
+    for (const auto& [name, values] : numbers)
+      nc_put_att_double(file, crs, name.c_str(), NC_DOUBLE, values.size(), values.data());
+    const int order[2] = {dims[x_first ? 0 : 1], dims[x_first ? 1 : 0]};
+    nc_def_var(file, "bed", NC_DOUBLE, 2, order, &field);
+    text(field, "grid_mapping", "crs");
+    nc_enddef(file);
+    nc_put_var_double(file, variables[0], x.data());
+    nc_put_var_double(file, variables[1], y.data());
+    std::vector<double> values(x.size() * y.size());
+    for (std::size_t j = 0; j < y.size(); ++j)
+      for (std::size_t i = 0; i < x.size(); ++i)
+        values[x_first ? i * y.size() + j : j * x.size() + i] =
+            static_cast<double>(j) + 10 * static_cast<double>(i);
+    nc_put_var_double(file, field, values.data());
+    REQUIRE(nc_close(file) == NC_NOERR);
+  }
+};
+
+} // namespace
+
+TEST_CASE("projections have the longitudes and latitudes of PROJ") {
+  struct Case {
+    std::string mapping;
+    Numbers numbers;
+    bool earth; // WGS 84
+    double x, y, longitude, latitude;
+  };
+  const Scratch scratch;
+  for (const Case& c : {
+           Case{"polar_stereographic", greenland, true, -600e3, -2500e3, -58.495733280796,
+                66.584707215025},
+           Case{"polar_stereographic",
+                {{"latitude_of_projection_origin", {-90}},
+                 {"standard_parallel", {-71}},
+                 {"straight_vertical_longitude_from_pole", {0}}},
+                true,
+                1234567,
+                -987654,
+                128.659819573507,
+                -75.523253590789},
+           Case{"lambert_conformal_conic",
+                {{"standard_parallel", {33, 45}},
+                 {"longitude_of_central_meridian", {-97}},
+                 {"latitude_of_projection_origin", {40}}},
+                true,
+                -1.5e6,
+                7e5,
+                -116.133311955377,
+                44.891474494606},
+           Case{"lambert_conformal_conic",
+                {{"standard_parallel", {-35}},
+                 {"longitude_of_central_meridian", {140}},
+                 {"latitude_of_projection_origin", {-35}},
+                 {"earth_radius", {6371229}}},
+                false,
+                9e5,
+                -6e5,
+                150.538712408139,
+                -39.962085255924},
+           Case{"lambert_azimuthal_equal_area",
+                {{"longitude_of_projection_origin", {10}},
+                 {"latitude_of_projection_origin", {52}},
+                 {"false_easting", {4321000}},
+                 {"false_northing", {3210000}}},
+                true,
+                3.2e6,
+                4.5e6,
+                -11.732588507142,
+                62.026550012888},
+           Case{"lambert_azimuthal_equal_area",
+                {{"longitude_of_projection_origin", {0}}, {"latitude_of_projection_origin", {90}}},
+                true,
+                -3e6,
+                2e6,
+                -123.690067525980,
+                57.242294235020},
+           Case{"lambert_azimuthal_equal_area",
+                {{"longitude_of_projection_origin", {0}}, {"latitude_of_projection_origin", {-90}}},
+                true,
+                2.5e6,
+                1.5e6,
+                59.036243467926,
+                -63.648361111598},
+           Case{"rotated_latitude_longitude",
+                {{"grid_north_pole_latitude", {39.25}}, {"grid_north_pole_longitude", {-162}}},
+                false,
+                -28,
+                -23,
+                -9.881884094042,
+                22.468521803315},
+       }) {
+    CAPTURE(c.mapping);
+    CAPTURE(c.x);
+    ProjectedRaster raster{.mapping = c.mapping, .numbers = c.numbers};
+    if (c.earth)
+      raster.numbers.insert(raster.numbers.end(), wgs84.begin(), wgs84.end());
+    raster.write(scratch / "a.nc");
+    const NetcdfReader file(scratch / "a.nc");
+    const auto [longitude, latitude] = Projection(file, "crs").lonlat(c.x, c.y);
+    CHECK(std::abs(longitude - c.longitude) < 2e-8);
+    CHECK(std::abs(latitude - c.latitude) < 2e-8);
+  }
+}
+
+TEST_CASE("cells of a projection keep integrals, in any order of their axes") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.nc";
+  const FieldGrid target = *raster_of("60x30");
+  const auto integral_of = [&](const ProjectedRaster& raster) {
+    raster.write(path);
+    const FieldGrid grid = read_field_grid(path);
+    CHECK(grid.size() == 12);
+    REQUIRE(grid.fields.size() == 1);
+    CHECK(grid.fields[0].name == "bed");
+    const GridWeights weights = conservative_weights(cells_of(grid), *target.boxes);
+    CHECK(std::abs(weights.source_fraction.maxCoeff() - 1) < 1e-12);
+    CHECK(std::abs(weights.source_fraction.minCoeff() - 1) < 1e-12);
+    const double before = grid.fields[0].values.dot(weights.source_area);
+    const DoubleVector values = weights.weights * grid.fields[0].values;
+    const double after =
+        (values.array() * weights.target_fraction.array() * weights.target_area.array()).sum();
+    CHECK(std::abs(after / before - 1) < 1e-12);
+    return before;
+  };
+  const ProjectedRaster usual;
+  const double expected = integral_of(usual);
+  CHECK(std::abs(integral_of({.x_first = true}) / expected - 1) < 1e-14);
+  CHECK(
+      std::abs(integral_of({.x = {-300, -100, 100, 300}, .y = {-900, -1000, -1100}, .unit = "km"}) /
+                   expected -
+               1) < 1e-12);
+  // The area of a square of 200 x 100 km there, by the scale of the projection.
+  usual.write(path);
+  const Polygons cells = cells_of(read_field_grid(path));
+  const DoubleVector areas = calotte::areas(cells);
+  CHECK(areas.minCoeff() > 0);
+  CHECK(std::abs(areas[0] * 6371e3 * 6371e3 / (200e3 * 100e3) - 1) < 0.08);
+}
+
+TEST_CASE("grid mappings that cannot be read are named") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.nc";
+  const auto refusal = [&](const ProjectedRaster& raster) -> std::string {
+    raster.write(path);
+    return error_of([&] { read_field_grid(path); }).what();
+  };
+  CHECK(has(refusal({.mapping = "transverse_mercator"}), "gdalwarp -t_srs EPSG:4326"));
+  CHECK(has(refusal({.numbers = {}}), "it has no latitude_of_projection_origin; add it"));
+  CHECK(has(refusal({.numbers = {{"latitude_of_projection_origin", {45}},
+                                 {"straight_vertical_longitude_from_pole", {0}}}}),
+            "is 45; give 90 or -90"));
+  CHECK(has(refusal({.x = {0, 1, 1}}), "x[2] does not ascend or descend"));
+  CHECK(has(refusal({.x = {0, NAN, 1}}), "x[1] does not"));
+  CHECK(has(refusal({.x = {5}}), "x has 1 values; give two nodes or more"));
+  CHECK(has(refusal({.unit = "degrees"}), "degrees"));
+  CHECK(has(refusal({.mapping = "lambert_azimuthal_equal_area",
+                     .numbers = {{"longitude_of_projection_origin", {0}},
+                                 {"latitude_of_projection_origin", {90}}},
+                     .x = {-2e7, 2e7}}),
+            "outside of what the projection shows"));
+}
