@@ -11,6 +11,7 @@
 #include <netcdf.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -214,4 +215,68 @@ TEST_CASE("grid mappings that cannot be read are named") {
                                  {"latitude_of_projection_origin", {90}}},
                      .x = {-2e7, 2e7}}),
             "outside of what the projection shows"));
+}
+
+namespace {
+
+/// A raster of two-dimensional coordinates, degrees, with a field of 1 at all cells.
+void write_curvilinear(
+    const std::string& path, std::size_t rows, std::size_t columns,
+    const std::function<std::pair<double, double>(std::size_t, std::size_t)>& at) {
+  int file = 0, dims[2], lon = 0, lat = 0, field = 0;
+  REQUIRE(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &file) == NC_NOERR);
+  nc_def_dim(file, "j", rows, dims);
+  nc_def_dim(file, "i", columns, dims + 1);
+  nc_def_var(file, "nav_lon", NC_DOUBLE, 2, dims, &lon);
+  nc_def_var(file, "nav_lat", NC_DOUBLE, 2, dims, &lat);
+  nc_def_var(file, "f", NC_DOUBLE, 2, dims, &field);
+  nc_put_att_text(file, lon, "units", 12, "degrees_east");
+  nc_put_att_text(file, lat, "units", 13, "degrees_north");
+  nc_enddef(file);
+  std::vector<double> longitudes, latitudes;
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i < columns; ++i) {
+      longitudes.push_back(at(j, i).first);
+      latitudes.push_back(at(j, i).second);
+    }
+  const std::vector<double> ones(rows * columns, 1);
+  nc_put_var_double(file, lon, longitudes.data());
+  nc_put_var_double(file, lat, latitudes.data());
+  nc_put_var_double(file, field, ones.data());
+  REQUIRE(nc_close(file) == NC_NOERR);
+}
+
+} // namespace
+
+TEST_CASE("cells of two-dimensional coordinates close round the sphere and do not overlap") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.nc";
+  const auto usual = [](std::size_t j, std::size_t i) {
+    return std::pair(10.0 * static_cast<double>(i), -85 + 10.0 * static_cast<double>(j));
+  };
+  const auto area_of = [&] {
+    const FieldGrid grid = read_field_grid(path);
+    REQUIRE(grid.fields.size() == 1);
+    const GridWeights weights = conservative_weights(cells_of(grid), *raster_of("60x30")->boxes);
+    CHECK(std::abs(weights.source_fraction.minCoeff() - 1) < 1e-12);
+    CHECK(std::abs(weights.source_fraction.maxCoeff() - 1) < 1e-12);
+    CHECK(weights.source_area.minCoeff() > 0);
+    return weights.source_area.sum();
+  };
+  write_curvilinear(path, 18, 36, usual);
+  CHECK(std::abs(area_of() / (4 * std::numbers::pi) - 1) < 1e-3); // open at the poles by rounding
+  write_curvilinear(path, 9, 20, [&](std::size_t j, std::size_t i) { return usual(13 - j, i); });
+  const double sines =
+      std::sin(std::numbers::pi / 180 * 50) - std::sin(-std::numbers::pi / 180 * 40);
+  CHECK(std::abs(area_of() / (200 * std::numbers::pi / 180 * sines) - 1) < 0.02);
+
+  const auto refusal = [&] { return std::string(error_of([&] { read_field_grid(path); }).what()); };
+  write_curvilinear(path, 18, 38, usual);
+  CHECK(has(refusal(), "column 36 of nav_lon repeats column 0"));
+  write_curvilinear(path, 3, 4, [&](std::size_t j, std::size_t i) {
+    return std::pair(usual(j, i).first, j == 1 && i == 2 ? NAN : usual(j, i).second);
+  });
+  CHECK(has(refusal(), "nav_lon[1, 2] and nav_lat there are no longitude and latitude"));
+  write_curvilinear(path, 1, 4, usual);
+  CHECK(has(refusal(), "give two rows and columns or more"));
 }

@@ -322,6 +322,11 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice,
       require_records(path, raster, choice);
       return raster;
     }
+    if (const std::optional<RasterAxes> axes = curvilinear_axes(file)) {
+      FieldGrid raster = read_curvilinear_grid(file, *axes, choice, choices);
+      require_records(path, raster, choice);
+      return raster;
+    }
   }
   FieldGrid grid{.name = path};
   grid.mesh = read_mesh_file(path, nullptr, choice, choices);

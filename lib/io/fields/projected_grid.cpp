@@ -20,6 +20,9 @@
 namespace calotte::io_detail {
 namespace {
 
+using base_detail::column;
+using base_detail::Vec3;
+
 /// Whether a dimension's variable is an axis of a projection, by its standard_name, its axis or its
 /// name.
 bool is_axis(const NetcdfReader& file, const std::string& name, char letter) {
@@ -77,7 +80,7 @@ Points3 corners_of(const NetcdfReader& file, const Projection& projection,
           base_detail::set_column(corners, i,
                                   std::isfinite(lon) && std::abs(lat) <= 90
                                       ? base_detail::from_lonlat(lon, lat)
-                                      : base_detail::Vec3{0, 0, 0});
+                                      : Vec3{0, 0, 0});
         }
       });
   for (std::int64_t i = 0; i < corners.cols(); ++i)
@@ -89,7 +92,7 @@ Points3 corners_of(const NetcdfReader& file, const Projection& projection,
 }
 
 /// The corners of each box, counter-clockwise seen from outside.
-IdLists boxes_of(std::int64_t columns, std::int64_t rows, bool turned) {
+IdLists boxes_of(std::int64_t columns, std::int64_t rows, const Points3& corners) {
   const std::int64_t count = columns * rows;
   IdLists ids{Offsets::LinSpaced(count + 1, 0, 4 * count), Ids(4 * count)};
   base_detail::for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -97,12 +100,105 @@ IdLists boxes_of(std::int64_t columns, std::int64_t rows, bool turned) {
       const auto first = static_cast<std::int32_t>(i / columns * (columns + 1) + i % columns),
                  above = static_cast<std::int32_t>(first + columns + 1);
       std::array<std::int32_t, 4> box{first, first + 1, above + 1, above};
-      if (turned)
+      const Vec3 &a = column(corners, box[0]), &b = column(corners, box[2]);
+      if (dot(cross(column(corners, box[1]) - a, b - a), a) +
+              dot(cross(b - a, column(corners, box[3]) - a), a) <
+          0)
         std::swap(box[1], box[3]);
       std::ranges::copy(box, ids.items.data() + 4 * i);
     }
   });
   return ids;
+}
+
+void require_few(const NetcdfReader& file, std::int64_t columns, std::int64_t rows) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max() / 4;
+  if (rows > most / columns - 1 || columns > most)
+    file.fail("{} x {} cells are more than {}; give a part of them, or coarser ones", columns, rows,
+              most);
+}
+
+FieldGrid grid_of(const NetcdfReader& file, Points3&& corners, std::int64_t columns,
+                  std::int64_t rows) {
+  FieldGrid grid{.name = file.path()};
+  IdLists ids = boxes_of(columns, rows, corners);
+  grid.mesh.polygons =
+      Polygons{.corners = std::move(corners), .ids = std::move(ids), .centres = Points3(3, 0)};
+  return grid;
+}
+
+// ---- Two-dimensional coordinates
+
+/// The centres of cells, a row after the other.
+struct Centres {
+  std::vector<Vec3> points;
+  std::int64_t rows, columns;
+  bool closed = false; ///< whether the first column follows the last
+
+  const Vec3& inside(std::int64_t j, std::int64_t i) const {
+    return points[static_cast<std::size_t>(j * columns + i)];
+  }
+  /// Also one column and one row outside, where the last step goes on.
+  Vec3 at(std::int64_t j, std::int64_t i) const {
+    if (j < 0 || j >= rows)
+      return 2.0 * at(j < 0 ? 0 : rows - 1, i) - at(j < 0 ? 1 : rows - 2, i);
+    if (i >= 0 && i < columns)
+      return inside(j, i);
+    if (closed)
+      return inside(j, i < 0 ? columns - 1 : 0);
+    return 2.0 * inside(j, i < 0 ? 0 : columns - 1) - inside(j, i < 0 ? 1 : columns - 2);
+  }
+  /// The largest distance of two columns, over that of the first two in the same row.
+  double apart(std::int64_t a, std::int64_t b) const {
+    double largest = 0;
+    for (std::int64_t j = 0; j < rows; ++j)
+      largest = std::max(largest, norm(inside(j, a) - inside(j, b)) /
+                                      std::max(norm(inside(j, 1) - inside(j, 0)), 1e-300));
+    return largest;
+  }
+};
+
+Centres read_centres(const NetcdfReader& file, const RasterAxes& axes) {
+  const std::vector<std::string> dimensions = file.dimensions_of(axes.longitude);
+  Centres centres{{}, file.dimension(dimensions[0]), file.dimension(dimensions[1])};
+  if (centres.rows < 2 || centres.columns < 2)
+    file.fail("{} is {} x {}; give two rows and columns or more", axes.longitude, centres.rows,
+              centres.columns);
+  require_few(file, centres.columns, centres.rows);
+  const auto read = [&](const std::string& name) {
+    std::vector<double> values = cf_values(file, name, {centres.rows, centres.columns});
+    scale(values, degrees_per_unit(file, name));
+    return values;
+  };
+  const std::vector<double> lon = read(axes.longitude), lat = read(axes.latitude);
+  for (std::size_t k = 0; k < lon.size(); ++k) {
+    if (!(std::isfinite(lon[k]) && std::abs(lat[k]) <= 90))
+      file.fail("{}[{}, {}] and {} there are no longitude and latitude; give those of all cells",
+                axes.longitude, k / static_cast<std::size_t>(centres.columns),
+                k % static_cast<std::size_t>(centres.columns), axes.latitude);
+    centres.points.push_back(base_detail::from_lonlat(lon[k], lat[k]));
+  }
+  for (const std::int64_t last : {centres.columns - 1, centres.columns - 2})
+    if (last > 0 && centres.apart(0, last) < 1e-3)
+      file.fail("column {} of {} repeats column 0; leave such columns out, as by ncks -d", last,
+                axes.longitude);
+  centres.closed = centres.columns > 2 && centres.apart(0, centres.columns - 1) < 1.5;
+  return centres;
+}
+
+Points3 corners_between(const Centres& centres) {
+  const std::int64_t wide = centres.columns + 1;
+  Points3 corners(3, wide * (centres.rows + 1));
+  base_detail::for_each_block(corners.cols(),
+                              [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                                for (std::int64_t k = begin; k != end; ++k) {
+                                  const std::int64_t j = k / wide, i = k % wide;
+                                  const Vec3 sum = centres.at(j - 1, i - 1) + centres.at(j - 1, i) +
+                                                   centres.at(j, i - 1) + centres.at(j, i);
+                                  base_detail::set_column(corners, k, (1 / norm(sum)) * sum);
+                                }
+                              });
+  return corners;
 }
 
 } // namespace
@@ -129,16 +225,30 @@ FieldGrid read_projected_grid(const NetcdfReader& file, const ProjectedAxes& axe
   const std::vector<double> x = read_sides(file, axes.x, projection),
                             y = read_sides(file, axes.y, projection);
   const std::int64_t columns = std::ssize(x) - 1, rows = std::ssize(y) - 1;
-  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max() / 4;
-  if (rows > most / columns - 1 || columns > most)
-    file.fail("{} x {} cells are more than {}; give a part of them, or coarser ones", columns, rows,
-              most);
-  FieldGrid grid{.name = file.path()};
-  grid.mesh.polygons = Polygons{.corners = corners_of(file, projection, x, y),
-                                .ids = boxes_of(columns, rows, (x[1] > x[0]) != (y[1] > y[0])),
-                                .centres = Points3(3, 0)};
+  require_few(file, columns, rows);
+  FieldGrid grid = grid_of(file, corners_of(file, projection, x, y), columns, rows);
   read_fields_on(file, {axes.y, axes.x}, {axes.x, axes.y, axes.mapping}, choice, grid.fields,
                  grid.ignored, choices);
+  return grid;
+}
+
+std::optional<RasterAxes> curvilinear_axes(const NetcdfReader& file) {
+  for (const std::string& longitude : file.variable_names()) {
+    const std::vector<std::string> dimensions = file.dimensions_of(longitude);
+    if (dimensions.size() == 2 && is_longitude(file, longitude))
+      for (const std::string& latitude : file.variable_names())
+        if (file.dimensions_of(latitude) == dimensions && is_latitude(file, latitude))
+          return RasterAxes{longitude, latitude};
+  }
+  return std::nullopt;
+}
+
+FieldGrid read_curvilinear_grid(const NetcdfReader& file, const RasterAxes& axes,
+                                FieldChoice choice, const std::vector<FieldIndex>& choices) {
+  const Centres centres = read_centres(file, axes);
+  FieldGrid grid = grid_of(file, corners_between(centres), centres.columns, centres.rows);
+  read_fields_on(file, file.dimensions_of(axes.longitude), {axes.longitude, axes.latitude}, choice,
+                 grid.fields, grid.ignored, choices);
   return grid;
 }
 
