@@ -77,10 +77,12 @@ FieldGrid read_positions(const std::string& path, const ColumnChoice& choice = {
 /// lon_lat_boxes(). Or a raster in the plane of a projection, whose variables have the attribute
 /// grid_mapping (CF conventions, Appendix F): polar_stereographic, lambert_conformal_conic,
 /// lambert_azimuthal_equal_area or rotated_latitude_longitude. Its cells are polygons with corners
-/// half way between nodes, of geodetic latitudes. Or a raster with two-dimensional longitudes and
-/// latitudes, whose corners are in the middle of four centres. Fields of a raster have both
-/// dimensions, and any others, in any order. Values are what their attributes say: unpacked,
-/// unsigned, and NaN where they are missing or out of range, and where a mask leaves the cell out.
+/// half way between nodes, of geodetic latitudes. Or a raster of variables whose attribute
+/// coordinates names two-dimensional longitudes and latitudes without bounds: its corners are in
+/// the middle of four centres. Fields of a raster have both dimensions, and any others, in any
+/// order. Values are what their attributes say: unpacked, unsigned, and NaN where they are missing
+/// or out of range, and where a mask leaves the cell out.
+///
 /// \param choice of the fields at chosen indices.
 /// \param choices indices of the dimensions of fields, such as a time, for those that have them.
 /// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name; parse for a grid

@@ -232,6 +232,7 @@ void write_curvilinear(
   nc_def_var(file, "f", NC_DOUBLE, 2, dims, &field);
   nc_put_att_text(file, lon, "units", 12, "degrees_east");
   nc_put_att_text(file, lat, "units", 13, "degrees_north");
+  nc_put_att_text(file, field, "coordinates", 15, "nav_lon nav_lat");
   nc_enddef(file);
   std::vector<double> longitudes, latitudes;
   for (std::size_t j = 0; j < rows; ++j)

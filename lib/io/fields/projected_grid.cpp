@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -233,12 +234,20 @@ FieldGrid read_projected_grid(const NetcdfReader& file, const ProjectedAxes& axe
 }
 
 std::optional<RasterAxes> curvilinear_axes(const NetcdfReader& file) {
-  for (const std::string& longitude : file.variable_names()) {
-    const std::vector<std::string> dimensions = file.dimensions_of(longitude);
-    if (dimensions.size() == 2 && is_longitude(file, longitude))
-      for (const std::string& latitude : file.variable_names())
-        if (file.dimensions_of(latitude) == dimensions && is_latitude(file, latitude))
-          return RasterAxes{longitude, latitude};
+  for (const std::string& field : file.variable_names()) {
+    std::istringstream words(file.text(field, "coordinates"));
+    RasterAxes axes;
+    for (std::string name; words >> name;)
+      if (file.has_variable(name) && file.dimensions_of(name).size() == 2 &&
+          !file.has_variable(file.text(name, "bounds"))) {
+        if (is_longitude(file, name))
+          axes.longitude = name;
+        else if (is_latitude(file, name))
+          axes.latitude = name;
+      }
+    if (!axes.longitude.empty() && !axes.latitude.empty() &&
+        file.dimensions_of(axes.longitude) == file.dimensions_of(axes.latitude))
+      return axes;
   }
   return std::nullopt;
 }

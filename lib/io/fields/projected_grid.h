@@ -30,7 +30,9 @@ std::optional<ProjectedAxes> projected_axes(const NetcdfReader& file);
 FieldGrid read_projected_grid(const NetcdfReader& file, const ProjectedAxes& axes,
                               FieldChoice choice, const std::vector<FieldIndex>& choices);
 
-/// A longitude and a latitude on the same two dimensions; none without them.
+/// A longitude and a latitude on the same two dimensions, which the attribute coordinates of a
+/// variable names (CF conventions, 5.2), of cells without bounds; none without them. Cells with
+/// bounds are those of a mesh file.
 std::optional<RasterAxes> curvilinear_axes(const NetcdfReader& file);
 
 /// The cells around the centres that two-dimensional longitudes and latitudes give: a corner is the
