@@ -149,8 +149,9 @@ struct PolarStereographic : Projection::Inverse {
                degree;
     const double e = earth.eccentricity();
     const double at_pole = 2 / std::sqrt(std::pow(1 + e, 1 + e) * std::pow(1 - e, 1 - e));
+    // Some files of the south give it without its sign; PROJ takes both for the same.
     const double parallel =
-        of.find("standard_parallel") ? sign * of.latitude("standard_parallel") : pi / 2;
+        of.find("standard_parallel") ? std::abs(of.latitude("standard_parallel")) : pi / 2;
     scale = parallel > pi / 2 - 1e-9
                 ? at_pole * of.find("scale_factor_at_projection_origin").value_or(1)
                 : earth.m(parallel) / earth.t(parallel);
