@@ -214,6 +214,10 @@ def planar_raster(values, x, y):
 def _labelled(array):
     """An xarray.DataArray over latitude and longitude."""
     lat, lon = _labels.lat_lon(array, "cell widths")
+    array = array.squeeze([name for name, size in array.sizes.items() if size == 1 and name not in (lat, lon)])
+    if array.ndim != 2:
+        raise Error(f"cell widths have the dimensions {tuple(array.dims)}; choose one index of the others than {lat} and "
+                    f"{lon}, as in isel(time=0)")
     ordered = array.transpose(lat, lon)
     unit = str(array.attrs.get("units", ""))
     values = numbers(ordered.values, "cell widths") * _calotte.kilometres_in(unit)

@@ -1743,7 +1743,7 @@ def cull(source: Path, target: Path, *, land: Path | Geometries | Sequence[Path 
         raise Error(f"raster_values is {raster_values!r}; give height, sea-fraction or "
                     "land-fraction")
     words = {"land": _files(land, "land") + _files(coast, "coast"), "passages": _files(passages, "passages"),
-             "barriers": _files(barriers, "barriers"), "raster": "" if raster is None else str(raster),
+             "barriers": _files(barriers, "barriers"), "raster": "" if raster is None else os.fspath(raster),
              "raster_variable": raster_variable, "raster_values": raster_values, "field": field,
              "field_file": "" if field_file is None else str(field_file), "sea_from": sea_from,
              "sea_below": sea_below, "land_fraction": land_fraction, "least_area": least_area,

@@ -113,13 +113,18 @@ def _features(write):
 def _to_geodataframe(grid, **options):
     """A geopandas.GeoDataFrame of the cells in longitude and latitude, in their order, with their areas
     and the fields of the file as columns. Cells that cross 180 degrees are split, and that at a pole
-    reaches it. Options as write(). It needs geopandas."""
-    return _graphs.frame(_features(lambda path: _functions.write(path, grid, order="input", **options)))
+    reaches it. Those of a plane are in its x and y. Options as write(). It needs geopandas."""
+    features = _features(lambda path: _functions.write(path, grid, order="input", **options))
+    return _graphs.frame(features, 4326 if grid.surface.is_sphere else None)
 
 
 def _region_to_geodataframe(surface):
-    """A geopandas.GeoDataFrame of a region of the sphere, in longitude and latitude. It needs geopandas."""
-    return _graphs.frame(_features(surface.write))
+    """A geopandas.GeoDataFrame of a region of the sphere, in longitude and latitude. The region is split where it
+    crosses 180 degrees, and reaches a pole inside. write() makes a file that any region is read from. It needs geopandas."""
+    (feature,) = _features(surface.write)
+    frame = _graphs.frame([{"properties": {}, "geometry": feature["geometry"]}], 4326)
+    frame.geometry = [_graphs.outline(feature["geometry"]["coordinates"], feature["properties"]["inside"])]
+    return frame
 
 
 def _to_scipy_sparse(grid):

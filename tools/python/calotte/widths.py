@@ -12,6 +12,8 @@ surface, a rule has the plane's unit, and places are x and y.
 >>> rule([0, 90], [0, 0]).tolist()
 [10.0, 50.0]
 """
+import os
+
 import numpy as np
 
 from . import _arguments, _calotte, _labels
@@ -112,7 +114,7 @@ def by_depth(path, least, *, cells=None, period=None, rossby=None, slope=None, v
     if len(given) != 1:
         raise _calotte.Error("give period and cells, or rossby, or slope")
     (kind, value), = given
-    return _calotte.widths_by_depth(str(path), variable, kind, value,
+    return _calotte.widths_by_depth(os.fspath(path), variable, kind, value,
                                     0.0 if period is None else _arguments.seconds(period, "period"), least)
 
 
