@@ -34,8 +34,8 @@ struct Locations {
 ///     const Locations after = locator.find(moved, before.triangle);
 ///
 /// From a triangle near a position a walk leads to it across edges that separate them (Lawson, in:
-/// Mathematical Software III, 1977), for many positions in parallel. Positions without hints are
-/// sorted along a space-filling curve; positions with hints should be in such an order.
+/// Mathematical Software III, 1977), for many positions in parallel. They are sorted along a
+/// space-filling curve, and each walk begins where the previous one ended.
 class Locator {
 public:
   /// \param mesh a Delaunay triangulation, or a part of one. In a mesh that is none, the nearest
@@ -51,7 +51,9 @@ public:
   /// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0,
   ///        in the unit of the mesh, and in a periodic direction at most 2^30 periods from the box.
   /// \param hints for each position a triangle near it, such as an earlier result, or -1 for none.
-  ///        They change no result in a Delaunay triangulation. Default: none.
+  ///        They change no result in a Delaunay triangulation, and save little time: without hints
+  ///        the previous position along the curve gives a triangle that is near, too. Default:
+  ///        none.
   /// \throws Error invalid_argument: another number of rows or of hints; with the index of the
   ///         position a z in the plane, a distance above 2^30 periods, or a hint that is no
   ///         triangle; not_finite and zero_vector (on the sphere), with the index of the position.
@@ -60,7 +62,8 @@ public:
   /// The same as find(...).nearest, in less time. \throws Error as find().
   Ids nearest(const PointsRef& positions, const Ids& hints = {}) const;
 
-  /// The k nearest sites of each position, by distance; those that are equally near by id. Exact.
+  /// The k nearest sites of each position, by distance; those that are equally near by id. Exact
+  /// as Locations::nearest.
   /// \param positions as for find().
   /// \param k 1 or more; lists are shorter where there are fewer sites.
   /// \returns for each position a list of sites.

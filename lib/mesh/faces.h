@@ -71,8 +71,16 @@ inline Corner next_around(const Faces& s, Corner corner) {
   return {beyond, vertex_at(s.triangle_ids, beyond, site_at(s, corner))};
 }
 
-/// The same; none, too, if the next triangle does not match. The way back is checked as well, so
-/// that no two corners have the same next one, and a walk returns to its start.
+/// The same clockwise.
+inline Corner previous_around(const Faces& s, Corner corner) {
+  const std::int32_t beyond = s.neighbour_ids(previous_vertex(corner.vertex), corner.triangle);
+  if (beyond < 0)
+    return no_corner;
+  return {beyond, vertex_at(s.triangle_ids, beyond, site_at(s, corner))};
+}
+
+/// The same as next_around(); none, too, if the next triangle does not match. The way back is
+/// checked as well, so that no two corners have the same next one, and a walk returns to its start.
 /// \pre the vertices are sites, three in each triangle.
 inline Corner fitting_next(const Faces& s, Corner corner) {
   if (s.neighbour_ids(next_vertex(corner.vertex), corner.triangle) >= s.triangles())
@@ -105,6 +113,18 @@ Corner walk_around(Corner first, const Next& next, const Body& body) {
 template <class Body> Corner walk_around(const Faces& s, Corner first, const Body& body) {
   return walk_around(
       first, [&](Corner corner) { return next_around(s, corner); }, body);
+}
+
+/// Calls body(corner) for the corners at a site, from a given one on in both directions; twice for
+/// the given one where there is a boundary.
+/// \return the last corner before the boundary counter-clockwise, or none.
+/// \pre neighbours are -1 or match the triangles.
+template <class Body> Corner walk_both_ways(const Faces& s, Corner first, const Body& body) {
+  const Corner last = walk_around(s, first, body);
+  if (exists(last))
+    walk_around(
+        first, [&](Corner corner) { return previous_around(s, corner); }, body);
+  return last;
 }
 
 } // namespace calotte::mesh_detail

@@ -11,6 +11,7 @@
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/seen_mesh.h"
+#include "mesh/site_search.h"
 #include "mesh/triangle_grid.h"
 
 #include <algorithm>
@@ -21,7 +22,6 @@
 #include <mutex>
 #include <numbers>
 #include <numeric>
-#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -57,7 +57,7 @@ public:
   /// \param known number of triangles that the grid is made from, at most all.
   LocatorIn(const Mesh& mesh, const S& space, std::int64_t known)
       : space_(space), mesh_(mesh), seen_(mesh, space), faces_(faces_of(mesh)),
-        grid_(mesh, space, std::min(known, mesh.triangles.cols())) {}
+        grid_(mesh, space, std::min(known, mesh.triangles.cols())), sites_(seen_, grid_) {}
 
   Locations find(const PointsRef& positions, const Ids& hints, Rim rim) const {
     const std::int64_t count = positions.cols();
@@ -71,7 +71,7 @@ public:
   Ids nearest(const PointsRef& positions, const Ids& hints) const {
     Ids out(positions.cols());
     for_each_position(positions, hints, [&](const Position& p, std::int32_t from, std::int64_t i) {
-      const Near near = nearest_from(from, p);
+      const auto near = sites_.nearest(p, from);
       out[i] = near.site;
       return near.triangle;
     });
@@ -83,7 +83,7 @@ public:
     IdLists out{Offsets::LinSpaced(positions.cols() + 1, 0, k * positions.cols()),
                 Ids(k * positions.cols())};
     for_each_position(positions, {}, [&](const Position& p, std::int32_t from, std::int64_t i) {
-      return find_nearest(p, from, out[i]);
+      return sites_.nearest_few(p, from, out[i]);
     });
     return out;
   }
@@ -91,14 +91,14 @@ public:
   IdLists within(const PointsRef& positions, double distance) const {
     IdLists out{Offsets::Zero(positions.cols() + 1), {}};
     for_each_position(positions, {}, [&](const Position& p, std::int32_t from, std::int64_t i) {
-      for_each_within(p, distance, [&](std::int32_t) { ++out.begin[i + 1]; });
+      sites_.for_each_within(p, distance, [&](std::int32_t) { ++out.begin[i + 1]; });
       return from;
     });
     std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
     out.items.resize(out.begin[positions.cols()]);
     for_each_position(positions, {}, [&](const Position& p, std::int32_t from, std::int64_t i) {
       auto* next = out[i].data();
-      for_each_within(p, distance, [&](std::int32_t site) { *next++ = site; });
+      sites_.for_each_within(p, distance, [&](std::int32_t site) { *next++ = site; });
       std::ranges::sort(out[i]);
       return from;
     });
@@ -142,9 +142,9 @@ private:
   std::int32_t locate(const Position& p, std::int32_t from, Rim rim, std::int64_t i,
                       Locations& out) const {
     const std::int32_t end = walk(p, from);
-    std::int32_t containing = end >= 0                     ? lowest_at(end, p)
-                              : end == outside && convex() ? outside
-                                                           : search(p);
+    std::int32_t containing = end >= 0                            ? lowest_at(end, p)
+                              : end == outside && sites_.convex() ? outside
+                                                                  : search(p);
     if (containing < 0 && rim == Rim::within_rounding)
       containing = search_rim(p);
     out.triangle[i] = containing;
@@ -153,7 +153,7 @@ private:
       out.nearest[i] = -1; // not asked for
       return containing;
     }
-    const Near near = nearest_from(containing >= 0 ? containing : from, p);
+    const auto near = sites_.nearest(p, containing >= 0 ? containing : from);
     out.nearest[i] = near.site;
     return near.triangle;
   }
@@ -235,257 +235,14 @@ private:
       if (count == 1 && on[static_cast<std::size_t>(v)] && mesh_.neighbours(v, t) >= 0)
         lowest = std::min(lowest, mesh_.neighbours(v, t));
       if (count > 1 && !on[static_cast<std::size_t>(v)]) { // p is that vertex
-        const Corner last = for_each_around(
-            {t, v}, [&](Corner corner) { lowest = std::min(lowest, corner.triangle); });
-        if (exists(last) && !convex()) // where parts of a mesh touch, there are further triangles
+        const Corner last = walk_both_ways(
+            faces_, {t, v}, [&](Corner corner) { lowest = std::min(lowest, corner.triangle); });
+        // Where parts of a mesh touch, there are further triangles.
+        if (exists(last) && !sites_.convex())
           return search(p);
       }
     }
     return lowest;
-  }
-
-  /// Calls body(corner) for the corners at a site, from one of them in both directions. Returns the
-  /// last corner before a boundary, or none.
-  template <class Body> Corner for_each_around(Corner corner, const Body& body) const {
-    const auto next = [&](Corner c) { return next_around(faces_, c); };
-    const Corner last = walk_around(corner, next, body);
-    if (!exists(last))
-      return last;
-    const auto before = [&](Corner c) {
-      const std::int32_t beyond = mesh_.neighbours(previous_vertex(c.vertex), c.triangle);
-      return beyond < 0 ? no_corner
-                        : Corner{beyond, vertex_at(mesh_.triangles, beyond, site_at(faces_, c))};
-    };
-    walk_around(corner, before, body);
-    return last;
-  }
-
-  /// Calls body(neighbour, corner at it) for the neighbours of a site. Returns whether these are
-  /// all neighbours that it has in a triangulation of the whole space: the mesh has no boundary
-  /// there.
-  template <class Body> bool for_each_neighbour(Corner corner, const Body& body) const {
-    const Corner last = for_each_around(corner, [&](Corner c) {
-      body(following_site(faces_, c), Corner{c.triangle, next_vertex(c.vertex)});
-    });
-    if (exists(last))
-      body(preceding_site(faces_, last), Corner{last.triangle, previous_vertex(last.vertex)});
-    return !exists(last) || has_all_sites();
-  }
-
-  /// A site, and a triangle near it.
-  struct Near {
-    std::int32_t site, triangle;
-  };
-
-  /// The end of a walk from site to site.
-  struct End {
-    Corner corner; ///< at a site than which none of its neighbours is nearer
-    bool all;      ///< whether the mesh has all of its neighbours
-    bool tied;     ///< whether some are equally near
-  };
-
-  /// Walks from site to site, each nearer than the previous one. A site of a Delaunay triangulation
-  /// is the nearest if none of its neighbours is nearer.
-  End walk_to_nearest(std::int32_t t, const Position& p) const {
-    for (Corner here{t, 0};;) {
-      Corner best = here;
-      bool tied = false;
-      const bool all = for_each_neighbour(here, [&](std::int32_t site, Corner corner) {
-        const int order = seen_.compare(p, site, site_at(faces_, best));
-        if (order < 0)
-          best = corner;
-        tied = tied || order == 0;
-      });
-      if (site_at(faces_, best) == site_at(faces_, here))
-        return {here, all, tied};
-      here = best;
-    }
-  }
-
-  /// Where the mesh lacks neighbours, all sites are searched.
-  Near nearest_from(std::int32_t t, const Position& p) const {
-    const End end = walk_to_nearest(t, p);
-    return {!end.all   ? nearest_of_all(end.corner.triangle, p)
-            : end.tied ? lowest_tie(end.corner, p)
-                       : site_at(faces_, end.corner),
-            end.corner.triangle};
-  }
-
-  /// The lowest of the equally near sites. Their circle is empty, so that edges connect them.
-  std::int32_t lowest_tie(Corner from, const Position& p) const {
-    std::vector<Corner> found{from};
-    std::int32_t lowest = site_at(faces_, from);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const bool all = for_each_neighbour(Corner(found[k]), [&](std::int32_t site, Corner corner) {
-        const bool known = std::any_of(found.begin(), found.end(),
-                                       [&](Corner c) { return site_at(faces_, c) == site; });
-        if (!known && seen_.compare(p, site, lowest) == 0)
-          found.push_back(corner);
-      });
-      if (!all)
-        return nearest_of_all(from.triangle, p);
-    }
-    for (const Corner& corner : found)
-      lowest = std::min(lowest, site_at(faces_, corner));
-    return lowest;
-  }
-
-  /// The nearest of all sites, including those without triangles. \param t a triangle whose sites
-  /// may be near.
-  std::int32_t nearest_of_all(std::int32_t t, const Position& p) const {
-    std::int32_t best = mesh_.triangles(0, t);
-    const auto square_to = [&](std::int32_t site) {
-      const Vec3 apart = seen_.seen(site, p) - seen_.seen(p);
-      return dot(apart, apart);
-    };
-    double reach = square_to(best);
-    const auto consider = [&](std::int32_t site) {
-      if (const int order = seen_.compare(p, site, best);
-          order < 0 || (order == 0 && site < best)) {
-        best = site;
-        reach = square_to(site);
-      }
-    };
-    for (const std::int32_t site : mesh_.triangles.col(t))
-      consider(site);
-    constexpr double rounding = 1 + 1e-9;
-    for (int k = 0; k < S::copies; ++k) {
-      const Vec3 at = seen_.coordinates(seen_.copy(p, k));
-      site_tree().visit(
-          [&](const Box3& box) { return square_from(box, at) <= reach * rounding + 1e-30; },
-          consider);
-    }
-    return best;
-  }
-
-  /// Calls body(site) for the sites whose boxes are nearer to p than a limit, which the body may
-  /// lower, roughly from the nearest on; in a box for those of copies, too.
-  template <class Body>
-  void for_each_near(const Position& p, const double& limit, const Body& body) const {
-    for (int k = 0; k < S::copies; ++k) {
-      const Vec3 at = seen_.coordinates(seen_.copy(p, k));
-      site_tree().visit_nearest([&](const Box3& box) { return square_from(box, at); }, limit, body);
-    }
-  }
-
-  /// The square of a distance that is larger than one of some square by more than rounding.
-  double beyond(const Position& p, double square) const {
-    const Vec3 at = seen_.coordinates(p);
-    const double size = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}),
-                 reach = std::sqrt(square) * (1 + 1e-9) + 1e-14 * size + 1e-300;
-    return reach * reach;
-  }
-
-  double square_of(const Position& p, std::int32_t site) const {
-    const Vec3 apart = seen_.seen(site, p) - seen_.seen(p);
-    return dot(apart, apart);
-  }
-
-  /// A site, and the square of its distance up to rounding.
-  struct Candidate {
-    double square;
-    std::int32_t site;
-    Corner corner = no_corner; ///< at the site, until its neighbours have been visited
-  };
-
-  /// The nearest sites to a position, sorted: equally near ones by id.
-  class Nearest {
-  public:
-    Nearest(const LocatorIn& in, const Position& p, std::size_t count)
-        : in_(in), p_(p), count_(count) {
-      found_.reserve(count + 1);
-    }
-
-    /// Sites beyond are not among the nearest.
-    const double& limit() const { return limit_; }
-
-    /// Does nothing for a site that is known.
-    void consider(std::int32_t site, Corner corner = no_corner) {
-      const Candidate candidate{in_.square_of(p_, site), site, corner};
-      if (candidate.square > limit_)
-        return;
-      const auto at =
-          std::upper_bound(found_.begin(), found_.end(), candidate,
-                           [&](const Candidate& a, const Candidate& b) { return is_before(a, b); });
-      if (at != found_.begin() && (at - 1)->site == site)
-        return;
-      found_.insert(at, candidate);
-      if (found_.size() > count_)
-        found_.pop_back();
-      if (found_.size() == count_)
-        limit_ = in_.beyond(p_, found_.back().square);
-    }
-
-    /// A corner at the nearest site whose neighbours have not been visited; then they have. None if
-    /// there is no such site.
-    Corner next() {
-      for (Candidate& candidate : found_)
-        if (exists(candidate.corner))
-          return std::exchange(candidate.corner, no_corner);
-      return no_corner;
-    }
-
-    void clear() {
-      found_.clear();
-      limit_ = std::numeric_limits<double>::infinity();
-    }
-
-    const std::vector<Candidate>& found() const { return found_; }
-
-  private:
-    bool is_before(const Candidate& a, const Candidate& b) const {
-      if (a.square > in_.beyond(p_, b.square) || b.square > in_.beyond(p_, a.square))
-        return a.square < b.square;
-      const int order = in_.seen_.compare(p_, a.site, b.site);
-      return order < 0 || (order == 0 && a.site < b.site);
-    }
-
-    const LocatorIn& in_;
-    const Position& p_;
-    std::size_t count_;
-    double limit_ = std::numeric_limits<double>::infinity();
-    std::vector<Candidate> found_;
-  };
-
-  /// Fills a list with the sites nearest to p. Returns a triangle near p.
-  std::int32_t find_nearest(const Position& p, std::int32_t from,
-                            std::span<std::int32_t> list) const {
-    const bool copied = !mesh_.surface.period().isZero();
-    const End end = copied ? End{{from, 0}, false, false} : walk_to_nearest(from, p);
-    Nearest nearest(*this, p, list.size());
-    if (!end.all || !visit_neighbours(end.corner, nearest)) {
-      nearest.clear();
-      for_each_near(p, nearest.limit(), [&](std::int32_t site) { nearest.consider(site); });
-    }
-    std::ranges::transform(nearest.found(), list.begin(), &Candidate::site);
-    return end.corner.triangle;
-  }
-
-  /// Visits the nearest sites from one of the nearest on: each site that is not the nearest has a
-  /// neighbour that is nearer, and edges connect those that are equally near.
-  /// \returns false where the mesh lacks neighbours.
-  bool visit_neighbours(Corner first, Nearest& nearest) const {
-    nearest.consider(site_at(faces_, first), first);
-    for (Corner here = nearest.next(); exists(here); here = nearest.next())
-      if (!for_each_neighbour(
-              here, [&](std::int32_t site, Corner corner) { nearest.consider(site, corner); }))
-        return false;
-    return true;
-  }
-
-  /// Calls body(site) once for each site within a distance of p.
-  template <class Body>
-  void for_each_within(const Position& p, double distance, const Body& body) const {
-    const double chord = S::on_sphere ? 2 * std::sin(distance / 2) : distance,
-                 square = chord * chord, limit = beyond(p, square);
-    std::vector<std::int32_t> found; // where a box has copies
-    for_each_near(p, limit, [&](std::int32_t site) {
-      if (square_of(p, site) > square || std::ranges::find(found, site) != found.end())
-        return;
-      if (S::copies > 1)
-        found.push_back(site);
-      body(site);
-    });
   }
 
   void set_weights(std::int32_t t, const Position& p, std::int64_t i, Locations& out) const {
@@ -496,26 +253,6 @@ private:
     for (int v = 0; v < 3; ++v)
       out.weights(v, i) = seen_.side(t, v, p) == 0 ? 0 : std::max(0.0, seen_.area(t, v, p));
     out.weights.col(i) /= out.weights.col(i).sum();
-  }
-
-  bool convex() const {
-    look_at_boundary();
-    return convex_;
-  }
-  /// Whether sites at the boundary have all neighbours that they have in a triangulation of the
-  /// whole space.
-  bool has_all_sites() const {
-    look_at_boundary();
-    return has_all_sites_;
-  }
-  void look_at_boundary() const {
-    std::call_once(asked_, [&] {
-      convex_ = seen_.has_convex_boundary();
-      std::vector<std::uint8_t> seen(static_cast<std::size_t>(mesh_.points.cols()));
-      for (const std::int32_t site : mesh_.triangles.reshaped())
-        seen[static_cast<std::size_t>(site)] = 1;
-      has_all_sites_ = convex_ && std::find(seen.begin(), seen.end(), 0) == seen.end();
-    });
   }
 
   const BoxTree& tree() const {
@@ -532,32 +269,14 @@ private:
     return tree_;
   }
 
-  const BoxTree& site_tree() const {
-    std::call_once(sites_made_, [&] {
-      const auto count = static_cast<std::size_t>(mesh_.points.cols());
-      std::vector<Box3> boxes(count);
-      std::vector<std::uint64_t> keys(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        const Vec3 x = seen_.vertex(static_cast<std::int32_t>(i));
-        boxes[i] = {x, x};
-        keys[i] = grid_.key_of(x);
-      }
-      site_tree_ = BoxTree(boxes, keys);
-    });
-    return site_tree_;
-  }
-
   S space_;
   const Mesh& mesh_;
   SeenMesh<S> seen_;
   Faces faces_;
   TriangleGrid<S> grid_;
-  mutable std::once_flag asked_;
-  mutable bool convex_ = false, has_all_sites_ = false; ///< once a position is near the boundary
+  SiteSearch<S> sites_;
   mutable std::once_flag made_;
   mutable BoxTree tree_; ///< of all triangles, once a position needs them
-  mutable std::once_flag sites_made_;
-  mutable BoxTree site_tree_; ///< of all sites, once a position is nearest to one at a boundary
 };
 
 /// Calls body(space) for a mesh in which positions can be.

@@ -122,8 +122,10 @@ void check_located(const Mesh& mesh, const PointsRef& at) {
   const bool sphere = mesh.surface.is_sphere();
   const auto unit = [&](const Eigen::Vector3d& x) { return sphere ? x.normalized() : x; };
   const double distance = sphere ? 0.4 : 1.3;
-  const IdLists few = locator.nearest_few(at, 9), all = locator.nearest_few(at, 1000),
-                within = locator.within(at, distance);
+  const IdLists all = locator.nearest_few(at, 1000), within = locator.within(at, distance);
+  std::vector<IdLists> few;
+  for (const std::int64_t k : {1, 2, 3, 9})
+    few.push_back(locator.nearest_few(at, k));
   for (Eigen::Index i = 0; i < at.cols(); ++i) {
     CAPTURE(i);
     Eigen::Vector3d p(at(0, i), at(1, i), 0);
@@ -131,8 +133,8 @@ void check_located(const Mesh& mesh, const PointsRef& at) {
       p = at.col(i);
     const std::vector<std::int32_t> sites = by_distance(mesh, p);
     CHECK(std::ranges::equal(all[i], sites));
-    CHECK(
-        std::ranges::equal(few[i], std::span(sites).first(std::min(sites.size(), std::size_t{9}))));
+    for (const IdLists& lists : few)
+      CHECK(std::ranges::equal(lists[i], std::span(sites).first(lists[i].size())));
     CHECK(std::ranges::is_sorted(within[i]));
     for (const std::int32_t site : sites)
       if (const bool is_in = std::ranges::binary_search(within[i], site); sphere) {
@@ -213,6 +215,59 @@ TEST_CASE("the octahedron: ties go to the lowest triangle and the lowest site") 
   CHECK(found.weights.col(1).minCoeff() == 0);
   CHECK(found.weights.col(1).maxCoeff() == doctest::Approx(0.5));
   CHECK(found.weights.col(3).minCoeff() == doctest::Approx(1.0 / 3));
+}
+
+TEST_CASE("more sites are equally near than are asked for: the walk may begin at each of them") {
+  std::array<int, 4> order{0, 1, 2, 3};
+  do {
+    Points3 square = Points3::Zero(3, 4);
+    for (int i = 0; i < 4; ++i)
+      square.col(order[static_cast<std::size_t>(i)]) << i % 2, i / 2, 0;
+    const Mesh mesh = delaunay(square, Surface::plane());
+    Points3 centre(3, 1);
+    centre << 0.5, 0.5, 0;
+    for (int from = 0; from < 4; ++from) {
+      Points3 at(3, 2); // the walk to the second position begins at the first one's site
+      at << square.col(from), centre;
+      check_located(mesh, at);
+    }
+    check_located(mesh, centre);
+  } while (std::ranges::next_permutation(order).found);
+
+  const Mesh cube = delaunay(cubed_sphere(4)); // the middle of each square
+  Points3 middles(3, cube.triangles.cols());
+  for (Eigen::Index t = 0; t < cube.triangles.cols(); ++t) {
+    const auto x = cube.triangles.col(t);
+    middles.col(t) = (cube.points.col(x[1]) - cube.points.col(x[0]))
+                         .cross(cube.points.col(x[2]) - cube.points.col(x[0]));
+  }
+  check_located(cube, middles);
+  check_located(cube, middles.rowwise().reverse());
+}
+
+TEST_CASE("a walk does not reach all sites: two closed parts, and a site without triangles") {
+  Mesh two = delaunay(Points3(Points3::Identity(3, 3).replicate(1, 2) *
+                              Eigen::Matrix<double, 6, 1>(1, 1, 1, -1, -1, -1).asDiagonal()));
+  const Eigen::Index sites = two.points.cols(), triangles = two.triangles.cols();
+  two.points.conservativeResize(3, 2 * sites + 1);
+  two.points.middleCols(sites, sites) =
+      (Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()) *
+       two.points.leftCols(sites).eval())
+          .eval();
+  two.points.rightCols(1) << 0.6, 0.8, 0;
+  two.triangles.conservativeResize(3, 2 * triangles);
+  two.triangles.rightCols(triangles) =
+      two.triangles.leftCols(triangles).array() + static_cast<std::int32_t>(sites);
+  two.neighbours.conservativeResize(3, 2 * triangles);
+  two.neighbours.rightCols(triangles) =
+      two.neighbours.leftCols(triangles).array() + static_cast<std::int32_t>(triangles);
+  const IdLists all = Locator(two).nearest_few(random_sphere(50), 2 * sites + 1);
+  for (Eigen::Index i = 0; i < 50; ++i) {
+    std::vector<std::int32_t> found(all[i].begin(), all[i].end());
+    std::ranges::sort(found);
+    for (std::size_t k = 0; k < found.size(); ++k)
+      CHECK(found[k] == static_cast<std::int32_t>(k));
+  }
 }
 
 TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
