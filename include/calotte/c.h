@@ -178,14 +178,16 @@ CALOTTE_C_API calotte_status calotte_locator_make(const calotte_mesh* mesh,
 
 /** As calotte_locate(), from a triangle near each position.
  * hints: n triangles, such as earlier results; -1 for none. Null: none for all. They change no
- * result in a Delaunay triangulation. */
+ * result in a Delaunay triangulation, and save little time.
+ * triangles, weights, nearest: as of calotte_locate(); each may be null. */
 CALOTTE_C_API calotte_status calotte_locator_find(const calotte_locator* locator,
                                                   const double* positions, int64_t n,
                                                   const int32_t* hints, int32_t* triangles,
                                                   double* weights, int32_t* nearest,
                                                   calotte_error* error);
 
-/** Finds the k nearest sites of n positions, by distance; those that are equally near by id. Exact.
+/** Finds the k nearest sites of n positions, by distance; those that are equally near by id. Exact
+ * in a Delaunay triangulation and in a part of one.
  * k: 1 to the number of sites.
  * sites: n k; those of the first position first. */
 CALOTTE_C_API calotte_status calotte_locator_nearest(const calotte_locator* locator,
@@ -193,9 +195,10 @@ CALOTTE_C_API calotte_status calotte_locator_nearest(const calotte_locator* loca
                                                      int32_t* sites, calotte_error* error);
 
 /** Finds the sites within a distance of n positions. Of those whose distance is that up to
- * rounding, some. A first call with null sites gives the room that the second one needs. distance:
- * 0 or more; radians, at most pi, or the unit of the plane. begin: n + 1; position i has the sites
- * begin[i] to begin[i + 1] - 1, ascending. sites: begin[n], or null. */
+ * rounding, some. A first call with null sites gives the room that the second one needs.
+ * distance: 0 or more; radians, at most pi, or the unit of the plane.
+ * begin: n + 1; position i has the sites begin[i] to begin[i + 1] - 1, ascending. Not null.
+ * sites: begin[n], or null. */
 CALOTTE_C_API calotte_status calotte_locator_within(const calotte_locator* locator,
                                                     const double* positions, int64_t n,
                                                     double distance, int64_t* begin, int32_t* sites,

@@ -27,6 +27,7 @@ struct calotte_cells {
 struct calotte_locator {
   calotte::Locator locator;
   int rows; ///< of positions
+  int64_t sites;
 };
 
 namespace calotte {
@@ -133,7 +134,7 @@ calotte_status calotte_locator_make(const calotte_mesh* mesh, calotte_locator** 
     const Mesh& made = mesh_of(mesh);
     require(locator != nullptr,
             "the pointer that receives the locator is null; give the address of one");
-    *locator = new calotte_locator{Locator(made), rows_of(made.surface)};
+    *locator = new calotte_locator{Locator(made), rows_of(made.surface), made.points.cols()};
   });
 }
 
@@ -158,10 +159,8 @@ calotte_status calotte_locator_nearest(const calotte_locator* locator, const dou
     const auto points = points_of(positions, n, in.rows, "the positions");
     require(sites != nullptr || n == 0,
             "the array that receives the sites is a null pointer; give one of n k");
-    const IdLists found = in.locator.nearest_few(points, k);
-    require(found.items.size() == n * k,
-            "k is {}, and the mesh has fewer sites; give at most as many", k);
-    copy(found.items, sites);
+    require(k <= in.sites, "k is {}, and the mesh has {} sites; give at most as many", k, in.sites);
+    copy(in.locator.nearest_few(points, k).items, sites);
   });
 }
 
