@@ -44,8 +44,8 @@ struct AreaWeightOptions {
 /// \param surface where the points live; its rings bound the cells. Default: the sphere.
 /// \returns one weight for each point: steradians, in a plane the square of its unit.
 /// \throws Error as triangulate(), in a part that rings bound as voronoi(); invalid_argument for an
-///         option out of range, for an edge in a part that rings bound, and for whole cells in a
-///         plane without an end.
+///         option out of range, for an edge in a part that rings bound, for whole cells in a
+///         plane without an end, and for a hull in a channel.
 DoubleVector area_weights(const PointsRef& points, const Surface& surface = {},
                           const AreaWeightOptions& options = {});
 

@@ -43,8 +43,8 @@ struct Multimesh {
 /// \param finest the last level, counted from 0; 0 to 13.
 /// \param coarsest 3 x n directions, of level 0, which keep their bits. Default: the icosahedron,
 ///        so that level l has 10 x 4^l + 2 nodes. Others are geodesic_sphere(n).
-/// \throws Error invalid_argument for a level out of range, and for more than 2^30 nodes; with an
-///         index duplicate; as delaunay().
+/// \throws Error invalid_argument for a level out of range, and for more than 2^30 nodes, and
+///         for nodes within a hemisphere; with an index duplicate; as delaunay().
 Multimesh multimesh(int finest, const PointsRef& coarsest = bisected_icosahedron(0));
 
 /// Levels of which each follows a density: the number of nodes in an area is the same share of all

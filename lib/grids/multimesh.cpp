@@ -257,6 +257,8 @@ Multimesh multimesh(int finest, const PointsRef& coarsest) {
   const DelaunayOptions options{.duplicates = Duplicates::refuse};
   Multimesh out;
   add_level(out, delaunay(coarsest, Surface::sphere(), options));
+  require(out.meshes[0].closed(), "the coarsest nodes are within a hemisphere, so that their mesh "
+                                  "is open; give nodes all round the sphere");
   add_parents(out, no_parents(coarsest.cols()));
   for (int level = 1; level <= finest; ++level) {
     Points3 points = bisect(out.meshes.back());

@@ -382,6 +382,9 @@ void require_options(const Surface& surface, const AreaWeightOptions& options) {
           "the surface has rings, which bound the cells; leave the edge out");
   require(options.gap >= 1 && std::isfinite(options.gap), "the gap is {}; give 1 or more",
           options.gap);
+  require(options.edge != EdgeCells::hull || surface.period().isZero() || surface.is_box(),
+          "a channel has two boundaries, and points along them no hull; let the cells end at their "
+          "neighbours or at a reach");
   if (options.edge != EdgeCells::reach)
     return;
   require(options.reach > 0 && std::isfinite(options.reach),

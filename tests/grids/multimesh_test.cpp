@@ -83,6 +83,24 @@ void check_laws(const Multimesh& made) {
   }
 }
 
+/// Parents of a run on the sphere are the two nearest nodes of the level before, by brute force.
+void check_nearest(const Multimesh& made) {
+  for (std::size_t level = 1; level < made.meshes.size(); ++level) {
+    const std::int64_t before = made.meshes[level - 1].points.cols();
+    for (std::int64_t i = before; i < made.meshes[level].points.cols(); ++i) {
+      CAPTURE(i);
+      const DoubleVector squares =
+          (made.points().leftCols(before).colwise() - made.points().col(i)).colwise().squaredNorm();
+      std::vector<double> sorted(squares.begin(), squares.end());
+      std::ranges::sort(sorted);
+      const auto parents = made.parents.col(i);
+      CHECK(parents[0] != parents[1]);
+      CHECK(std::abs(squares[parents[0]] - sorted[0]) < 1e-15);
+      CHECK(std::abs(squares[parents[1]] - sorted[1]) < 1e-15);
+    }
+  }
+}
+
 /// The ratio of each cell's area to that demanded of it, 1 in the mean.
 DoubleVector area_ratios(const Mesh& mesh, const DoubleVector& widths) {
   DoubleVector ratio = voronoi(mesh).cell_area.array() / widths.array().square();
@@ -174,6 +192,7 @@ TEST_CASE("levels follow a density that the coarsest does not resolve") {
   const Density steep = tanh_bump({0, -0.8, 0.6}, 0.5, 0.2, 1.0 / 4096);
   const Multimesh made = multimesh(4, {.resolution = steep}, 42);
   check_laws(made);
+  check_nearest(made);
   const Mesh& mesh = made.meshes.back();
   const DoubleVector widths = evaluate(steep, mesh.points).array().pow(-0.25);
   check_bins(area_ratios(mesh, widths), widths, 6, 0.07); // by bisections alone 0.1
@@ -260,6 +279,9 @@ TEST_CASE("what a multimesh refuses, in one line") {
   twice(1, 7) = std::nan("");
   CHECK(refused([&] { multimesh(1, twice); }).find("7") != std::string::npos);
   CHECK(refused([] { multimesh(1, Points3(3, 0)); }) != "nothing");
+  CHECK(refused([] { multimesh(1, Points3(fibonacci_sphere(100).cwiseAbs())); }) ==
+        "the coarsest nodes are within a hemisphere, so that their mesh is open; give nodes all "
+        "round the sphere");
   CHECK(refused([] { multimesh(1, {.cells = 642}, 162); }) ==
         "there are 162 nodes of the coarsest level and 642 of the finest; give one of them");
   CHECK(refused([] {

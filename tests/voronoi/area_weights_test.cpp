@@ -233,4 +233,9 @@ TEST_CASE("options of weights are checked") {
               area_weights(Points2::Random(2, 9), Surface::plane(), {.edge = EdgeCells::whole});
             }).what(),
             "cells at the hull of points in a plane are unbounded"));
+  CHECK(has(
+      error_of([] {
+        area_weights(Points2::Random(2, 40), Surface::periodic({2, 0}), {.edge = EdgeCells::hull});
+      }).what(),
+      "a channel has two boundaries"));
 }
