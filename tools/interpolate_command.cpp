@@ -295,15 +295,21 @@ std::string describe_scattered(const InterpolateRequest& request, const FieldGri
                                const std::vector<MeshField>& fields) {
   std::string lines;
   const char* const where = target.positions ? "position" : "cell";
-  std::int64_t before = 0;
+  const std::int64_t masked = target.mask.size() - target.mask.sum();
+  if (masked > 0)
+    lines += message("{}: {} that the mask of {} leaves out {} missing\n", request.output,
+                     counted(masked, where), target.name, masked == 1 ? "is" : "are");
+  const MeshField* before = nullptr;
   for (const MeshField& field : fields) {
-    const std::int64_t lacks = field.values.array().isNaN().count();
-    if (lacks > 0 && lacks != before) // most fields have values at the same positions
+    const std::int64_t lacks = field.values.array().isNaN().count() - masked;
+    const bool as_before =
+        before != nullptr && (field.values.array().isNaN() == before->values.array().isNaN()).all();
+    before = &field;
+    if (lacks > 0 && !as_before)
       lines += message("{}: {}: {} of {} {} outside of the triangles between the positions of {}, "
                        "and missing\n",
                        request.output, field.name, lacks, counted(target.size(), where),
                        lacks == 1 ? "is" : "are", request.source);
-    before = lacks;
   }
   return lines;
 }

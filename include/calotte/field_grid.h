@@ -55,10 +55,11 @@ struct ColumnChoice {
 };
 
 /// Reads positions and values as text, a row on each line. Commas, semicolons, bars or tabs
-/// separate columns, or else blanks. `#` starts a comment; blank lines are ignored. A line without
-/// numbers before the rows is a header, and so is a comment that names the position and as many
-/// columns as there are. An empty column, NaN and NA are missing values. All rows have the same
-/// number of columns; those that are not chosen may hold any text.
+/// separate columns, or else blanks; not within double quotes, with which a column starts, and a
+/// line ends even there. `#` starts a comment; blank lines are ignored. A line before the rows that
+/// names the position or has no numbers is a header, and so is a comment that names the position
+/// and as many columns as there are. An empty column, NaN and NA are missing values. All rows have
+/// the same number of columns; those that are not chosen may hold any text.
 ///
 /// Fields have the names of the header, or column3, column4 and so on.
 /// \param name the name of the stream in messages.
@@ -150,13 +151,15 @@ struct ScatteredFields {
 /// Values that are NaN are missing: their positions count for the other fields alone. Fields with
 /// values at the same positions share a triangulation. Positions in the same direction, or at the
 /// same point, are one, whose value is the mean. But for `nearest`, the result is NaN outside of
-/// the triangles: those of positions in a hemisphere, or in a plane, cover their convex hull. The
-/// result has the same bits for any order of the positions and any number of threads.
+/// the triangles: those of positions in a hemisphere, or in a plane, cover their convex hull. It is
+/// NaN, too, where a mask leaves the target's cell out. The result has the same bits for any order
+/// of the positions and any number of threads.
 /// \param source positions and fields of one value each. \param kind not conservative.
 /// \throws Error invalid_argument for another source or kind, for another surface of the target and
-///         a field that has not one value for each position or has none; for a field with its name:
-///         too_few_sites for fewer than 3 distinct positions, degenerate for positions on one great
-///         circle or line; not_finite and zero_vector, with the index of the position.
+///         a field that has not one value for each position, an infinite one or none; for a field
+///         with its name: too_few_sites for fewer than 3 distinct positions, degenerate for
+///         positions on one great circle or line; not_finite and zero_vector, with the index of the
+///         position.
 ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& target,
                                       Interpolation kind = Interpolation::linear);
 

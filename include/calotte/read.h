@@ -29,18 +29,20 @@ enum class Columns {
 
 /// Reads points as text, one on each line: three numbers, or two with Columns::lonlat and
 /// Columns::xy. The result is 3 x n. Blanks or tabs, and at most one of comma, semicolon and bar,
-/// separate them; `#` starts a comment; blank lines are ignored; one header line without numbers
-/// may precede the points. A header that names lon or longitude and lat or latitude, or x, y and z,
-/// tells which columns are read; without one the first are, and further ones are ignored. Lines end
-/// in LF, CRLF or CR; a missing final newline loses nothing.
+/// separate them, but not within double quotes; `#` starts a comment; blank lines are ignored; one
+/// header line may precede the points, which names the coordinates or has no numbers.
+/// A header that names lon or longitude and lat or latitude, or x, y and z, tells which columns are
+/// read; without one the first are, and further ones are ignored. Lines end in LF, CRLF or CR; a
+/// missing final newline loses nothing.
 ///
 /// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
 /// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
 /// \param name the name of the stream in messages.
 /// \throws Error parse (index() is the 1-based line) for text that is not a number, NaN, infinity,
-///         a decimal comma or the zero vector, too few columns, a latitude out of range, of more
-///         columns without a header a first one that counts the lines or is no longitude from -360
-///         to 360, or a file without points; file.
+///         a decimal comma or the zero vector, too few columns, a latitude out of range, a header
+///         that names longitude and latitude, or x and y, where x y z are read, of more columns
+///         without a header a first one that counts the lines or is no longitude from -360 to 360,
+///         or a file without points; file.
 Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz);
 /// The same from a file.
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz);

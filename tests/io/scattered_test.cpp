@@ -335,7 +335,16 @@ TEST_CASE("positions: separators, headers and choices of columns") {
            {"t,a,b,u\n1,20,10,5\n2.5,40,-30,\nNaN,-60,50,7\n", {.position = {"B", "a"}}},
            {"name,lon,lat,t,u\nA b,10,20,1,5\nC,-30,40,2.5,\n,50,-60,,7\n",
             {.fields = {{"T", "u"}}}},
-           {",lon,lat,t,u\n0,10,20,1,5\n1,-30,40,2.5,\n2,50,-60,,7\n", {}}}) {
+           {",lon,lat,t,u\n0,10,20,1,5\n1,-30,40,2.5,\n2,50,-60,,7\n", {}},
+           {"# lat lon t u\n# of a day\n20 10 1 5\n40 -30 2.5 NaN\n-60 50 NaN 7\n", {}},
+           {"lat,lon,2024,2025\n20,10,1,5\n40,-30,2.5,\n-60,50,NaN,7\n", {}},
+           {"name,lon,lat,t,u\n\"A, b # c\",10,20,1,5\n \"C\" ,-30,40,2.5,\n\"\"\"D\"\", "
+            "e\",50,-60,,7 # f\n",
+            {.fields = {{"t", "u"}}}},
+           {"\"a, b\";lon;lat;t;u\nc;10;20;1;5\nd;-30;40;2.5;\n\"e;\";50;-60;;7\n",
+            {.fields = {{"t", "u"}}}},
+           {"name lon lat t u\n\"A b\" 10 20 1 5\nC -30 40 2.5 NaN\nD 50 -60 NaN 7\n",
+            {.fields = {{"t", "u"}}}}}) {
     CAPTURE(text);
     const FieldGrid found = read(text, choice);
     CHECK(found.positions->coordinates == known.positions->coordinates);
@@ -431,4 +440,28 @@ TEST_CASE("positions: text and NetCDF of fields read back") {
           write_fields(scratch.folder / "times.csv", grid, {times});
         }).find("several numbers for each position") != std::string::npos);
   CHECK(!std::filesystem::exists(scratch.folder / "times.csv"));
+  for (const std::string name : {"w,x", "lat", "", "v"}) {
+    grid.fields[0].name = name;
+    grid.fields[1].name = name == "v" ? "v" : "w x";
+    CHECK(refusal_of([&] {
+            write_fields(scratch.folder / "names.csv", grid, grid.fields);
+          }).find("and there is one, or that is no name; rename it") != std::string::npos);
+  }
+  CHECK(!std::filesystem::exists(scratch.folder / "names.csv"));
+}
+
+TEST_CASE("scattered: cells that a mask leaves out are missing, and infinite values refused") {
+  Random random(11);
+  FieldGrid source = positions(random_places(200, false, random));
+  source.fields = {field("v", random_values(200, random))};
+  FieldGrid target = positions(random_places(50, false, random));
+  const DoubleVector whole = interpolate_scattered(source, target, nearest).fields[0].values;
+  target.mask = Ids::Ones(50);
+  target.mask[7] = 0;
+  const DoubleVector masked = interpolate_scattered(source, target, nearest).fields[0].values;
+  for (Eigen::Index i = 0; i < 50; ++i)
+    CHECK((i == 7 ? std::isnan(masked[i]) : masked[i] == whole[i]));
+  source.fields[0].values[3] = std::numeric_limits<double>::infinity();
+  CHECK(refusal_of([&] { interpolate_scattered(source, target, nearest); }) ==
+        "value 3 of v is infinite; give a number, or NaN for none");
 }

@@ -138,6 +138,42 @@ TEST_CASE("polygons of a shapefile have the widths of its table") {
   CHECK(read_cell_width(path, widths).values == read_cell_width(same, widths).values);
 }
 
+TEST_CASE("a row of the table may be deleted, or no number") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.shp", table = scratch / "a.dbf";
+  write_shapes(path, SHPT_POLYGON, {{SHPT_POLYGON, {outer}}, {SHPT_POLYGON, {far}}});
+  write_widths(path, {50.5, 60.5});
+  const std::string whole = bytes_of(table);
+  DBFInfo* const deleted = DBFOpen(path.c_str(), "r+b");
+  DBFMarkRecordDeleted(deleted, 0, 1);
+  DBFClose(deleted);
+  const auto coast = read_coast(path);
+  REQUIRE(coast.rings.size() == 1);
+  CHECK(coast.rings[0].row(0).minCoeff() < 0.8); // 40 degrees east and more
+  const PolygonWidths widths{.outside = 200, .transition = 3000};
+  std::string damaged = whole;
+  const std::size_t number = damaged.find("50.500");
+  REQUIRE(number != damaged.npos);
+  damaged.replace(number, 6, "50abc0");
+  write_text(table, damaged);
+  CHECK(
+      has(message_of([&] { read_cell_width(path, widths); }), "shape 0: cellWidth in its row of "));
+  for (std::size_t size = 0; size < whole.size(); size += 3) {
+    CAPTURE(size);
+    write_text(table, whole.substr(0, size));
+    CHECK_THROWS_AS(read_cell_width(path, widths), Error);
+  }
+  for (std::size_t byte = 0; byte < whole.size(); ++byte) { // nothing worse than an error
+    damaged = whole;
+    damaged[byte] = static_cast<char>(damaged[byte] ^ 0xff);
+    write_text(table, damaged);
+    try {
+      read_cell_width(path, widths);
+    } catch (const Error&) {
+    }
+  }
+}
+
 TEST_CASE("shapefiles without degrees are refused with the command") {
   const Scratch scratch;
   const std::string path = scratch / "a.shp";

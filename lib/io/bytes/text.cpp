@@ -199,6 +199,15 @@ Columned parse_columns(std::string_view line, int count, std::int64_t* values) {
   return parse(line, count, values);
 }
 
+Columned parse_number(std::string_view text, double& value) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(skip_plus(text.data(), end), end, value);
+  if (problem == std::errc() && stop == end)
+    return {Outcome::ok, 1, text};
+  const bool range = problem == std::errc::result_out_of_range && stop == end;
+  return {range ? Outcome::out_of_range : Outcome::no_number, 0, text};
+}
+
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
   constexpr std::string_view blanks = " \t";
@@ -234,6 +243,21 @@ void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t p
       reader.fail("id {} is not one of the {} points; ids count from {}", ids[i], points, first);
     faces.push_back(static_cast<std::int32_t>(ids[i] - first));
   }
+}
+
+std::string_view without_comment(std::string_view line) {
+  const std::size_t mark = line.find('#');
+  if (mark == line.npos || line.substr(0, mark).find('"') == line.npos)
+    return line.substr(0, mark);
+  bool begins = true, quoted = false; // a column
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && (begins || quoted))
+      quoted = !quoted;
+    else if (line[i] == '#' && !quoted)
+      return line.substr(0, i);
+    begins = is_blank(line[i]) || is_mark(line[i]);
+  }
+  return line;
 }
 
 bool has_number(std::string_view line) {

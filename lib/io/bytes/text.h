@@ -94,6 +94,10 @@ struct Columned {
 Columned parse_columns(std::string_view line, int count, double* values);
 Columned parse_columns(std::string_view line, int count, std::int64_t* values);
 
+/// Parses a whole text as one number, without blanks around it.
+/// \returns `text` is that given.
+Columned parse_number(std::string_view text, double& value);
+
 /// Parses a whole text as finite numbers. Blanks, or one of comma, semicolon and bar, separate
 /// them. Returns none for any other text.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
@@ -102,6 +106,9 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text);
 /// \throws Error parse for an id that is not one of the points.
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
                std::vector<std::int32_t>& faces, std::int64_t first = 0, std::int64_t count = 3);
+
+/// A line before its comment, which a `#` starts that is not in quotes. Quotes start with a column.
+std::string_view without_comment(std::string_view line);
 
 /// True if one of the line's columns is a number.
 bool has_number(std::string_view line);

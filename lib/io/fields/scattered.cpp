@@ -3,7 +3,9 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "exact/space.h"
 #include "io/fields/centres.h"
+#include "mesh/locate.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/field_grid.h>
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -195,21 +198,14 @@ void require_scattered(const FieldGrid& source, Interpolation kind) {
             field.values.size(), source.size());
     require(!field.values.array().isNaN().all(), "{}: {} has no values; leave it out", source.name,
             field.name);
+    for (Eigen::Index i = 0; i < field.values.size(); ++i)
+      if (std::isinf(field.values[i]))
+        base_detail::refuse_at(i, "value {} of {} is infinite; give a number, or NaN for none",
+                               field.name);
   }
-}
-
-/// Requires directions, or finite points, before they are sorted. \throws Error.
-void require_positions(const Positions& positions) {
-  for (std::int64_t i = 0; i < positions.points.cols(); ++i)
-    if (!positions.points.col(i).allFinite())
-      throw Error(ErrorCode::not_finite,
-                  base_detail::message("position {} is not finite; remove it or correct it", i), i);
-    else if (positions.surface.is_sphere() && positions.points.col(i).isZero(0))
-      throw Error(ErrorCode::zero_vector,
-                  base_detail::message("position {} is the zero vector, which has no direction; "
-                                       "remove it or correct it",
-                                       i),
-                  i);
+  exact_detail::in_space_of(source.positions->surface, [&](const exact_detail::Space auto& space) {
+    mesh_detail::checked_positions(space, source.positions->points);
+  });
 }
 
 } // namespace
@@ -220,9 +216,15 @@ ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& 
   using namespace io_detail;
   require_one_surface(source, target);
   require_scattered(source, kind);
-  require_positions(*source.positions);
   const std::vector<Row> sorted = sorted_rows(source.positions->points);
   const Points3 centres = centres_of(target);
+  const auto at_target = [&](const Weights& weights, const DoubleVector& means) {
+    DoubleVector values = interpolate(weights, means);
+    for (Eigen::Index i = 0; i < target.mask.size(); ++i)
+      if (target.mask[i] == 0)
+        values[i] = std::numeric_limits<double>::quiet_NaN();
+    return values;
+  };
   std::vector<bool> merged(sorted.size());
   ScatteredFields out;
   out.fields = source.fields;
@@ -236,7 +238,7 @@ ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& 
         merged[static_cast<std::size_t>(rows.rows[static_cast<std::size_t>(k)])] = true;
     const Weights weights = interpolation_weights(mesh, centres, kind);
     for (const std::size_t k : group)
-      out.fields[k].values = interpolate(weights, means_of(rows, source.fields[k].values));
+      out.fields[k].values = at_target(weights, means_of(rows, source.fields[k].values));
   }
   out.merged = std::ranges::count(merged, true);
   return out;

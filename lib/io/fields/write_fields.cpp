@@ -185,13 +185,19 @@ std::string column_name(std::string name) {
   return name;
 }
 
+std::array<const char*, 2> coordinate_names(const Positions& positions) {
+  if (positions.surface.is_sphere())
+    return {"lon", "lat"};
+  return {"x", "y"};
+}
+
 void write_text(const std::string& path, const Positions& positions,
                 const std::vector<MeshField>& fields) {
   const std::string_view between = suffix_of(path) == ".csv" ? "," : " ";
   OutputFile file(path);
   Writer out([&](std::string_view bytes) { file.append(bytes); });
-  const bool sphere = positions.surface.is_sphere();
-  out.text(sphere ? "lon" : "x").text(between).text(sphere ? "lat" : "y");
+  const auto [first, second] = coordinate_names(positions);
+  out.text(first).text(between).text(second);
   for (const MeshField& field : fields)
     out.text(between).text(column_name(field.name));
   out.text("\n");
@@ -214,16 +220,26 @@ bool is_text(const std::string& path) {
 }
 
 /// Requires fields that a text can hold.
-void require_text(const std::string& path, const std::vector<MeshField>& fields) {
+void require_text(const std::string& path, const Positions& positions,
+                  const std::vector<MeshField>& fields) {
   require(is_text(path),
           "{}: values at positions are written as text or NetCDF; give a name that ends in .csv, "
           ".txt or .nc",
           path);
-  for (const MeshField& field : fields)
+  const auto [first, second] = coordinate_names(positions);
+  std::vector<std::string> names{first, second};
+  for (const MeshField& field : fields) {
     require(field.count() == 1,
             "{}: the field {} has several numbers for each position, and text has one; choose an "
             "index of each dimension (--at), or write .nc",
             path, field.name);
+    const std::string name = column_name(field.name);
+    require(
+        !name.empty() && std::ranges::find(names, name) == names.end(),
+        "{}: the field {} would be a column {}, and there is one, or that is no name; rename it",
+        path, in_quotes(field.name), in_quotes(name));
+    names.push_back(name);
+  }
 }
 
 constexpr std::array<const char*, 6> own_names{"lat", "lon", "lat_bnds", "lon_bnds", "x", "y"};
@@ -266,7 +282,7 @@ void require_storable(const std::string& path, const FieldGrid& grid,
   if (suffix_of(path) == ".nc")
     return require_free_names(path, fields);
   if (grid.positions)
-    return require_text(path, fields);
+    return require_text(path, *grid.positions, fields);
   require(!grid.boxes, "{}: a raster is written to NetCDF; give a name that ends in .nc", path);
   WriteOptions options;
   options.fields = fields;

@@ -47,10 +47,11 @@ Surface read_geojson(std::istream& in, const std::string& name) {
 }
 
 void require_format(const std::string& name) {
+  if (has_geometries(name) || suffix_of(name) == ".pts")
+    return;
   refuse_foreign(name);
-  if (!is_geojson(name) && suffix_of(name) != ".pts")
-    refuse_path(name, "the name determines no format of regions; name it .geojson, .json, .shp or "
-                      ".pts");
+  refuse_path(name, "the name determines no format of regions; name it .geojson, .json, .shp or "
+                    ".pts");
 }
 
 } // namespace
@@ -58,17 +59,16 @@ void require_format(const std::string& name) {
 namespace io_detail {
 
 Surface read_region_file(const std::string& path) {
-  if (!is_shapefile(path))
-    require_format(path);
+  require_format(path);
   std::ifstream in = open_geometries(path);
-  return is_shapefile(path) ? read_geojson(in, path) : read_region(in, path);
+  return read_region(in, path);
 }
 
 } // namespace io_detail
 
 Surface read_region(std::istream& in, const std::string& name) {
   require_format(name);
-  return is_geojson(name) ? read_geojson(in, name) : read_region_pts(in, name);
+  return has_geometries(name) ? read_geojson(in, name) : read_region_pts(in, name);
 }
 
 } // namespace calotte

@@ -145,6 +145,24 @@ bool has_decimal_commas(std::string_view line, int count,
 
 // ---- Headers
 
+namespace {
+
+/// The end of the quoted text with which a column starts, or its begin without one.
+std::size_t end_of_quoted(std::string_view line, std::size_t begin, char separator) {
+  const std::size_t open = separator == ' ' ? begin : line.find_first_not_of(' ', begin);
+  if (open >= line.size() || line[open] != '"')
+    return begin;
+  std::size_t end = open + 1;
+  for (; end < line.size(); ++end)
+    if (line[end] == '"' && line.substr(end + 1, 1) != "\"")
+      break;
+    else if (line[end] == '"')
+      ++end; // two stand for one within
+  return std::min(end, line.size());
+}
+
+} // namespace
+
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns) {
   constexpr std::string_view around = " \t\r\"'";
   columns.clear();
@@ -152,7 +170,7 @@ void split_columns(std::string_view line, char separator, std::vector<std::strin
     return separator == ' ' ? c == ' ' || c == '\t' : c == separator;
   };
   for (std::size_t begin = 0; begin <= line.size();) {
-    std::size_t end = begin;
+    std::size_t end = end_of_quoted(line, begin, separator);
     while (end < line.size() && !is_end(line[end]))
       ++end;
     std::string_view column = line.substr(begin, end - begin);
@@ -173,8 +191,13 @@ std::vector<std::string_view> split_columns(std::string_view line, char separato
 }
 
 char find_separator(std::string_view line) {
-  const std::size_t at = line.find_first_of(",;|\t");
-  return at == std::string_view::npos ? ' ' : line[at];
+  bool quoted = false;
+  for (const char c : line) {
+    quoted ^= c == '"';
+    if (!quoted && (c == ',' || c == ';' || c == '|' || c == '\t'))
+      return c;
+  }
+  return ' ';
 }
 
 std::optional<PointHeader> parse_header(std::string_view line, Columns columns) {
@@ -203,6 +226,16 @@ std::optional<PointHeader> parse_header(std::string_view line, Columns columns) 
   }
   return header;
 }
+
+namespace {
+
+/// Whether a header names positions, but of another kind.
+bool names_other(std::string_view header, Columns columns) {
+  return columns == Columns::xyz && !parse_header(header, columns) &&
+         parse_header(header, Columns::lonlat);
+}
+
+} // namespace
 
 // ---- Positions
 
@@ -258,15 +291,16 @@ RowParser::RowParser(Columns columns)
     : columns_(columns), format_(&line_format(columns)), first_(columns) {}
 
 void RowParser::parse(const LineReader& reader, std::string_view line, PointRows& rows) {
-  const std::size_t comment = line.find('#');
-  const std::string_view content = line.substr(0, comment);
+  const std::string_view content = without_comment(line);
   if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
-    if (comment != std::string_view::npos && !has_points_ && !header_)
-      names_ = parse_header(line.substr(comment + 1), columns_);
+    if (content.size() < line.size() && !has_points_ && !header_)
+      if (const std::string_view comment = line.substr(content.size() + 1);
+          parse_header(comment, columns_) || names_other(comment, columns_))
+        comments_.emplace_back(comment);
     return;
   }
-  if (!has_points_ && names_ && !header_)
-    accept_comment(content);
+  if (!has_points_ && !header_)
+    accept_comment(reader, content);
   double values[3];
   if (has_decimal_commas(content, format_->columns, names_))
     reader.fail("commas separate columns; write numbers with decimal points");
@@ -279,20 +313,37 @@ void RowParser::parse(const LineReader& reader, std::string_view line, PointRows
     take_header(reader, content, read);
 }
 
-/// Keeps the names of a comment before the first line if they fit it: the comment may be a
-/// sentence.
-void RowParser::accept_comment(std::string_view line) {
-  const bool is_list = names_->separator != ' ' || names_->names == names_->wanted;
-  names_->separator = find_separator(line);
-  if (!is_list || split_columns(line, names_->separator).size() != names_->names)
-    names_.reset();
+/// Takes the names of the last comment before the first line that fits it: others may be sentences.
+void RowParser::accept_comment(const LineReader& reader, std::string_view line) {
+  const char separator = find_separator(line);
+  const std::size_t count = split_columns(line, separator).size();
+  for (; !comments_.empty() && !names_; comments_.pop_back()) {
+    const std::string& comment = comments_.back();
+    const char between = find_separator(comment);
+    const std::size_t names = split_columns(comment, between).size();
+    const bool is_list = between != ' ' || names == static_cast<std::size_t>(format_->columns);
+    if (!is_list || names != count)
+      continue;
+    require_names(reader, comment);
+    names_ = parse_header(comment, columns_);
+    names_->separator = separator;
+  }
+  comments_.clear();
+}
+
+/// Refuses a header that names another kind of position.
+void RowParser::require_names(const LineReader& reader, std::string_view header) const {
+  if (names_other(header, columns_))
+    reader.fail("the header names no x, y and z; write these{}", format_->perhaps);
 }
 
 void RowParser::take_header(const LineReader& reader, std::string_view line, const Columned& read) {
-  if (header_ || has_points_ || has_number(line))
+  const std::optional<PointHeader> found = parse_header(line, columns_);
+  if (header_ || has_points_ || (!found && has_number(line)))
     refuse_line(reader, read, *format_);
+  require_names(reader, line);
   header_ = true;
-  if (const std::optional<PointHeader> found = parse_header(line, columns_))
+  if (found)
     names_ = found;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct PointHeader {
 };
 
 /// Splits a line into columns at a separator, or at a blank as separator at all blanks and tabs.
-/// Removes quotes and blanks around them.
+/// Removes quotes and blanks around them. A column that starts with a double quote goes on to the
+/// next one, whatever is between.
 std::vector<std::string_view> split_columns(std::string_view line, char separator);
 /// The same into memory that serves for many lines.
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns);
@@ -102,13 +104,15 @@ public:
   bool finish(const LineReader& reader) const;
 
 private:
-  void accept_comment(std::string_view line);
+  void accept_comment(const LineReader& reader, std::string_view line);
+  void require_names(const LineReader& reader, std::string_view header) const;
   void take_header(const LineReader& reader, std::string_view line, const Columned& read);
   void add(const LineReader& reader, std::string_view line, const double* values, PointRows& rows);
 
   Columns columns_;
   const LineFormat* format_;
   bool header_ = false, has_points_ = false;
+  std::vector<std::string> comments_; ///< that may be headers
   std::optional<PointHeader> names_;
   FirstColumn first_;
 };

@@ -5,13 +5,13 @@
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
+#include "io/bytes/text.h"
 
 #include <nlohmann/json.hpp>
 #include <shapefil.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -35,21 +35,22 @@ void keep_error(const char* text) {
     last_error.pop_back();
 }
 
-std::optional<double> number_in(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" +"), text.size()));
+/// The number that a text is, but for blanks around it; NaN if it is none.
+double number_in(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of(' ') + 1);
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   double value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc() ? std::optional(value) : std::nullopt;
+  return parse_number(text, value).outcome == Outcome::ok ? value : std::nan("");
 }
 
-/// atof() would depend on the locale.
-double parse_number(const char* text) { return number_in(text).value_or(std::nan("")); }
+/// atof() would depend on the locale, and read 12 from 12abc.
+double number_of_table(const char* text) { return number_in(text); }
 
 SAHooks make_hooks() {
   SAHooks hooks;
   SASetupDefaultHooks(&hooks);
   hooks.Error = keep_error;
-  hooks.Atof = parse_number;
+  hooks.Atof = number_of_table;
   last_error.clear();
   return hooks;
 }
@@ -97,13 +98,13 @@ std::vector<Word> words_of(std::string_view text) {
   return words;
 }
 
-/// The number after the name of a unit or a meridian: "Degree",0.0174532925199433.
-std::optional<double> number_after_name(std::string_view rest) {
+/// The number after the name of a unit or a meridian: "Degree",0.0174532925199433. NaN without one.
+double number_after_name(std::string_view rest) {
   const std::size_t open = rest.find('"'), close = rest.find('"', open + 1),
                     comma = rest.find(',', close);
   return open == rest.npos || close == rest.npos || comma == rest.npos
-             ? std::nullopt
-             : number_in(rest.substr(comma + 1));
+             ? std::nan("")
+             : number_in(rest.substr(comma + 1, rest.find_first_of(",])", comma + 1) - comma - 1));
 }
 
 bool is_any_of(std::string_view keyword, std::initializer_list<std::string_view> keywords) {
@@ -123,8 +124,8 @@ bool is_geographic(const std::string& text) {
     geographic |= is_any_of(keyword, {"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS"});
     if (is_any_of(keyword, {"PROJCS", "PROJCRS", "PROJECTEDCRS", "GEOCCS", "LOCAL_CS", "ENGCRS"}))
       return false;
-    const double number = number_after_name(rest).value_or(0);
-    if (keyword == "PRIMEM" && number != 0)
+    const double number = number_after_name(rest);
+    if (keyword == "PRIMEM" && !(number == 0))
       return false;
     if ((keyword == "ANGLEUNIT" || (keyword == "UNIT" && !vertical)) &&
         !(std::abs(number / degree - 1) < 1e-6))
@@ -244,6 +245,8 @@ public:
     for (int i = 0; i < count; ++i) {
       where_ = message("shape {}: ", i);
       last_error.clear();
+      if (table_ && i < DBFGetRecordCount(table_.get()) && DBFIsRecordDeleted(table_.get(), i) != 0)
+        continue;
       const std::unique_ptr<SHPObject, Close> shape(SHPReadObject(file_.get(), i));
       if (!shape)
         fail_damaged(path_, "{}it cannot be read ({})", where_, last_error);
@@ -284,7 +287,11 @@ private:
       if ((type != FTDouble && type != FTInteger) ||
           DBFIsAttributeNULL(table_.get(), record, field) != 0)
         continue;
-      properties[name.data()] = DBFReadDoubleAttribute(table_.get(), record, field);
+      const double value = DBFReadDoubleAttribute(table_.get(), record, field);
+      if (std::isnan(value))
+        fail_damaged(path_, "{}{} in its row of {} is no number", where_, name.data(),
+                     with_suffix(path_, ".dbf"));
+      properties[name.data()] = value;
     }
     if (!last_error.empty())
       fail_damaged(path_, "{}its row in {} cannot be read", where_, with_suffix(path_, ".dbf"));

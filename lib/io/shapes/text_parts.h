@@ -17,8 +17,7 @@ namespace calotte::io_detail {
 /// Whole lines, parsed by a task of their own.
 ///
 /// A `Parser` has parse(reader, line, rows), has_points(), following() for the lines that follow,
-/// and append() for what the parser of these has found, as RowParser has. `Rows` has `lines`, the
-/// numbers of its rows' lines, and clear().
+/// and append() for what the parser of these has found, as RowParser has. `Rows` has clear().
 template <class Parser, class Rows> struct TextPart {
   Parser parser;
   Rows rows{};

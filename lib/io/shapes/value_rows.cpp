@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <limits>
@@ -26,18 +25,6 @@ std::string lower(std::string_view text) {
   std::ranges::transform(out, out.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
-}
-
-/// Parses the whole text of a column. `text` of the result is empty if the column is.
-Columned parse_number(std::string_view text, double& value) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '+' && text[1] != '-')
-    text.remove_prefix(1);
-  const char* const end = text.data() + text.size();
-  const auto [stop, problem] = std::from_chars(text.data(), end, value);
-  if (problem == std::errc() && stop == end)
-    return {Outcome::ok, 1, text};
-  const bool range = problem == std::errc::result_out_of_range && stop == end;
-  return {range ? Outcome::out_of_range : Outcome::no_number, 0, text};
 }
 
 /// What to write in place of a text that is no number.
@@ -58,7 +45,6 @@ void ValueRows::clear() {
   coordinates.clear();
   points.clear();
   values.clear();
-  lines.clear();
 }
 
 void ValueRows::append(const ValueRows& next) {
@@ -68,20 +54,20 @@ void ValueRows::append(const ValueRows& next) {
   add(coordinates, next.coordinates);
   add(points, next.points);
   add(values, next.values);
-  add(lines, next.lines);
 }
 
 ValueParser::ValueParser(ColumnChoice choice) : choice_(std::move(choice)), first_(kind()) {}
 
 void ValueParser::parse(const LineReader& reader, std::string_view line, ValueRows& rows) {
-  const std::size_t mark = line.find('#');
-  const std::string_view content = line.substr(0, mark);
+  const std::string_view content = without_comment(line);
   if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
-    if (mark != std::string_view::npos && !has_points())
-      comment_ = line.substr(mark + 1), comment_line_ = reader.number();
+    if (content.size() < line.size() && !has_points())
+      if (const std::string_view comment = line.substr(content.size() + 1);
+          parse_header(comment, kind()))
+        comments_.emplace_back(comment, reader.number());
     return;
   }
-  if (!has_points() && header_.empty() && !has_number(content)) {
+  if (!has_points() && header_.empty() && (!has_number(content) || parse_header(content, kind()))) {
     header_ = content;
     header_line_ = reader.number();
     return;
@@ -101,7 +87,6 @@ void ValueParser::parse(const LineReader& reader, std::string_view line, ValueRo
   rows.coordinates.insert(rows.coordinates.end(), {at[0], at[1]});
   for (std::size_t k = 0; k < columns_.fields.size(); ++k)
     rows.values.push_back(value(reader, k));
-  rows.lines.push_back(reader.number());
 }
 
 /// Chooses the columns by the header and the first row.
@@ -110,9 +95,10 @@ void ValueParser::begin(const LineReader& reader, std::string_view line) {
   columns_.separator = find_separator(line);
   split_columns(line, columns_.separator, texts_);
   columns_.count = texts_.size();
-  if (header_.empty() && !comment_.empty() && parse_header(comment_, kind()) &&
-      split_columns(comment_, find_separator(comment_)).size() == columns_.count)
-    header_ = comment_, header_line_ = comment_line_; // or else the comment is a sentence
+  if (header_.empty())
+    for (const auto& [comment, line_number] : comments_) // the last that fits: it is no sentence
+      if (split_columns(comment, find_separator(comment)).size() == columns_.count)
+        header_ = comment, header_line_ = line_number;
   if (!header_.empty())
     for (const std::string_view name : split_columns(header_, find_separator(header_)))
       names_.emplace_back(name);
@@ -246,7 +232,7 @@ namespace {
 FieldGrid make_grid(const std::string& name, bool plane, const std::vector<std::string>& names,
                     const ValueRows& rows) {
   FieldGrid grid{.name = name};
-  const auto n = std::ssize(rows.lines), fields = std::ssize(names);
+  const auto n = std::ssize(rows.points) / 3, fields = std::ssize(names);
   Positions& positions = grid.positions.emplace();
   positions.surface = plane ? Surface::plane() : Surface::sphere();
   positions.points = Eigen::Map<const Points3>(rows.points.data(), 3, n);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace calotte::io_detail {
@@ -20,7 +21,6 @@ struct ValueRows {
   std::vector<double> coordinates; ///< two of each row, as in the text
   std::vector<double> points;      ///< three of each row
   std::vector<double> values;      ///< of each row those of all fields; NaN where there is none
-  std::vector<std::int64_t> lines; ///< number of each row's line
 
   void clear(); ///< keeps the memory
   void append(const ValueRows& next);
@@ -70,10 +70,11 @@ private:
 
   ColumnChoice choice_;
   ValueColumns columns_;
-  std::string header_, comment_; ///< lines before the first row
-  std::int64_t header_line_ = 0, comment_line_ = 0;
-  std::vector<std::string> names_; ///< of all columns, by the header
-  std::int64_t first_line_ = 0;    ///< number of the first row's line
+  std::string header_; ///< the line before the first row
+  std::int64_t header_line_ = 0;
+  std::vector<std::pair<std::string, std::int64_t>> comments_; ///< that may be it, and their lines
+  std::vector<std::string> names_;                             ///< of all columns, by the header
+  std::int64_t first_line_ = 0;                                ///< number of the first row's line
   FirstColumn first_;
   std::vector<std::string_view> texts_; ///< columns of the current line
 };

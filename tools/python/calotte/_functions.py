@@ -374,7 +374,7 @@ class Locator:
 
     def find(self, positions: ArrayLike, hints: ArrayLike | None = None) -> Locations:
         """The same as locate(). hints: k triangles near the positions, such as those where particles
-        were before; -1 for none. They save time alone."""
+        were before; -1 for none. They change no result in a Delaunay triangulation, and save little time."""
         return self._prepared.find(_positions(self._mesh, positions), _NO_HINTS if hints is None else hints)
 
     def nearest(self, positions: ArrayLike, k: int | None = None, hints: ArrayLike | None = None) -> Array:
