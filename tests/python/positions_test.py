@@ -126,6 +126,22 @@ def test_errors():
         calotte.interpolate(mesh, np.ones(50), np.eye(3), method="cubic")
 
 
+def test_tables_of_pandas():
+    pandas = pytest.importorskip("pandas")
+    lonlat = np.random.default_rng(3).uniform((-180, -90), (180, 90), (200, 2))
+    table = pandas.DataFrame({"name": ["a"] * 200, "Latitude": lonlat[:, 1], "t": 1, "lon": lonlat[:, 0]})
+    mesh = calotte.delaunay(lonlat)
+    assert (calotte.delaunay(table).points == mesh.points).all()
+    assert (calotte.Locator(mesh).nearest(table) == np.arange(200)).all()
+    xyz = pandas.DataFrame(mesh.points, columns=["x", "y", "z"])
+    assert (calotte.delaunay(xyz[["z", "y", "x"]]).points == mesh.points).all()
+    plane = calotte.delaunay(pandas.DataFrame(lonlat, columns=["x", "y"]), surface=calotte.plane())
+    assert (plane.points[:, :2] == lonlat).all()
+    assert (calotte.area_weights(table) == calotte.area_weights(lonlat)).all()
+    with pytest.raises(calotte.Error, match="a table with the columns a, b; name those of the position lon, lat or x, y, z"):
+        calotte.delaunay(pandas.DataFrame(lonlat, columns=["a", "b"]))
+
+
 def test_area_weights():
     scipy_spatial = pytest.importorskip("scipy.spatial")
     points = calotte.random_points(3000, seed=4)

@@ -25,7 +25,7 @@ def warn(text):
 
 def numbers(values, what):
     """An array of doubles; NaN where values are masked, as netCDF4 masks what a file lacks."""
-    array = np.asarray(np.ma.getdata(values))
+    array = values.data if isinstance(values, np.ma.MaskedArray) else np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise Error(f"{what} must be numbers, not {array.dtype}")
     if np.ma.is_masked(values):
@@ -33,9 +33,26 @@ def numbers(values, what):
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+_LONLAT, _XY, _XYZ = (_labels.LONGITUDES, _labels.LATITUDES), (("x",), ("y",)), (("x",), ("y",), ("z",))
+
+
+def _named_columns(points, what, *choices):
+    """The columns of a table of pandas or polars that have the names of a choice; other values as they are."""
+    if not hasattr(points, "columns"):
+        return points
+    names = [str(name).lower() for name in points.columns]
+    for choice in choices:
+        found = [[k for k, name in enumerate(names) if name in words] for words in choice]
+        if all(len(numbers) == 1 for numbers in found):
+            return np.stack([np.asarray(points[points.columns[number]]) for (number,) in found], axis=1)
+    raise Error(f"{what} are a table with the columns {', '.join(names) or 'none'}; name those of the position "
+                + " or ".join(", ".join(words[0] for words in choice) for choice in choices)
+                + ", or give an array, such as table.to_numpy()")
+
+
 def sphere_points(points, what="points"):
     """n x 3 directions, or n x 2 longitudes and latitudes in degrees, as n x 3."""
-    array = numbers(points, what)
+    array = numbers(_named_columns(points, what, _LONLAT, _XYZ), what)
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise Error(f"{what} have the shape {array.shape}; give n x 3, or n x 2 longitudes and "
                     "latitudes in degrees")
@@ -50,7 +67,7 @@ def sphere_points(points, what="points"):
 
 def plane_points(points, what="points"):
     """n x 2 points."""
-    array = numbers(points, what)
+    array = numbers(_named_columns(points, what, _XY), what)
     if array.ndim != 2 or array.shape[1] != 2:
         raise Error(f"{what} have the shape {array.shape}; give n x 2 for a surface in the plane")
     return array

@@ -33,8 +33,9 @@ def _is_axis(array, name, words, units):
     return attributes.get("standard_name") == words[-1] or str(attributes.get("units", "")).lower() in units
 
 
-_LATITUDE = ("lat", "latitude"), ("degrees_north", "degree_north", "degrees_n")
-_LONGITUDE = ("lon", "longitude"), ("degrees_east", "degree_east", "degrees_e")
+LATITUDES, LONGITUDES = ("lat", "latitude"), ("lon", "longitude")
+_LATITUDE = LATITUDES, ("degrees_north", "degree_north", "degrees_n")
+_LONGITUDE = LONGITUDES, ("degrees_east", "degree_east", "degrees_e")
 
 
 def find_lat_lon(array):
