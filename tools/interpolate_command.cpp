@@ -222,23 +222,28 @@ GridWeights weights_of(const InterpolateRequest& request, const FieldGrid& sourc
 
 // ---- Messages
 
-/// The cells that have weights, and how many of their numbers are missing.
+/// By cell of the target, whether the source has none there.
+using Outside = std::vector<bool>;
+
+Outside without_weights(const Weights& weights) {
+  Outside outside;
+  for (Eigen::Index i = 0; i < weights.rows(); ++i)
+    outside.push_back(weights.outerIndexPtr()[i + 1] == weights.outerIndexPtr()[i]);
+  return outside;
+}
+
+/// The cells inside that lack a number, and how many numbers these lack.
 struct Missing {
-  std::int64_t outside = 0; ///< cells without weights
-  std::int64_t cells = 0;   ///< of the others, those that lack a number
-  std::int64_t values = 0;  ///< numbers that these lack
+  std::int64_t cells = 0, values = 0;
 };
 
-/// \param field null for the cells outside alone.
-Missing count_missing(const Weights& weights, const MeshField* field) {
+Missing count_missing(const Outside& outside, const MeshField& field) {
   Missing missing;
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-    const bool outside = weights.outerIndexPtr()[i + 1] == weights.outerIndexPtr()[i];
-    missing.outside += outside ? 1 : 0;
-    if (outside || field == nullptr)
+  for (std::int64_t i = 0; i < std::ssize(outside); ++i) {
+    if (outside[static_cast<std::size_t>(i)])
       continue;
     const std::int64_t lacks =
-        field->values.segment(i * field->count(), field->count()).array().isNaN().count();
+        field.values.segment(i * field.count(), field.count()).array().isNaN().count();
     missing.cells += lacks > 0 ? 1 : 0;
     missing.values += lacks;
   }
@@ -251,9 +256,9 @@ bool is_of_times(const MeshField& field) {
 }
 
 /// "sst: 12 of 2562 cells have no value, at each time"; "" if no number is missing.
-std::string missing_words(const Weights& weights, const MeshField& field) {
-  const Missing missing = count_missing(weights, &field);
-  const std::int64_t count = field.count(), cells = weights.rows();
+std::string missing_words(const Outside& outside, const MeshField& field) {
+  const Missing missing = count_missing(outside, field);
+  const std::int64_t count = field.count(), cells = std::ssize(outside);
   if (missing.values == 0)
     return "";
   std::string over;
@@ -270,23 +275,19 @@ std::string missing_words(const Weights& weights, const MeshField& field) {
                  is_of_times(field) ? counted(count, "time") : over);
 }
 
-std::string describe_weights(const InterpolateRequest& request, const FieldGrid& source,
-                             const GridWeights& weights, const std::vector<MeshField>& fields) {
+std::string describe_missing(const InterpolateRequest& request, const FieldGrid& source,
+                             const Outside& outside, const std::vector<MeshField>& fields) {
   std::string lines;
   const std::string& name = request.output.empty() ? request.weights : request.output;
-  const std::int64_t outside = count_missing(weights.weights, nullptr).outside;
-  if (outside > 0)
-    lines += message("{}: {} {} outside of {}, and missing\n", name, counted(outside, "cell"),
-                     outside == 1 ? "is" : "are", source.name);
+  if (const auto count = std::ranges::count(outside, true); count > 0)
+    lines += message("{}: {} {} outside of {}, and missing\n", name, counted(count, "cell"),
+                     count == 1 ? "is" : "are", source.name);
   for (const MeshField& field : fields)
-    if (const std::string words = missing_words(weights.weights, field); !words.empty())
+    if (const std::string words = missing_words(outside, field); !words.empty())
       lines += request.min_cover > 0
                    ? message("{}: {}, as {} has values for less than {} of the cell\n", name, words,
                              source.name, request.min_cover)
                    : message("{}: {}, as {} has none there\n", name, words, source.name);
-  if (!request.weights.empty())
-    lines += message("{}: {} weights from {} to {} cells\n", request.weights,
-                     weights.weights.nonZeros(), weights.weights.cols(), weights.weights.rows());
   return lines;
 }
 
@@ -351,7 +352,34 @@ std::string interpolate_cells(const InterpolateRequest& request, const FieldGrid
     write_weights(request.weights, weights, source, target, request.method, request.format,
                   history_of(request));
   }
-  return describe_weights(request, source, weights, fields);
+  std::string lines = describe_missing(request, source, without_weights(weights.weights), fields);
+  if (!request.weights.empty())
+    lines += message("{}: {} weights from {} to {} cells\n", request.weights,
+                     weights.weights.nonZeros(), weights.weights.cols(), weights.weights.rows());
+  return lines;
+}
+
+/// Interpolates a file that is read in parts.
+/// \param first its first part.
+std::string interpolate_in_parts(const InterpolateRequest& request, const FieldParts& parts,
+                                 const FieldGrid& first, const FieldGrid& target,
+                                 std::vector<MeshField>& fields) {
+  CoveredFields found = interpolate_parts(parts, fields, target, request.min_cover);
+  fields = std::move(found.fields);
+  Outside outside;
+  for (const double fraction : found.target_fraction)
+    outside.push_back(!(fraction > 0));
+  return describe_missing(request, first, outside, fields);
+}
+
+/// The source in parts, where these are several and weights are not asked for.
+std::optional<FieldParts> parts_of(const InterpolateRequest& request) {
+  if (request.scattered() || request.to_positions() || raster_of(request.source) ||
+      request.method != Interpolation::conservative || !request.mesh.empty() ||
+      !request.weights.empty() || !request.apply.empty())
+    return std::nullopt;
+  FieldParts parts(request.source, request.at);
+  return parts.count() > 1 ? std::optional(std::move(parts)) : std::nullopt;
 }
 
 void run(const InterpolateRequest& request) {
@@ -360,7 +388,8 @@ void run(const InterpolateRequest& request) {
   {
     Progress progress;
     progress.stage("reading " + request.source);
-    FieldGrid source = source_of(request);
+    const std::optional<FieldParts> parts = parts_of(request);
+    FieldGrid source = parts ? parts->read(0) : source_of(request);
     std::vector<MeshField> fields;
     if (!request.output.empty() && !request.scattered())
       fields = chosen_fields(request, source);
@@ -372,6 +401,7 @@ void run(const InterpolateRequest& request) {
       require_storable(request.output, target, request.scattered() ? source.fields : fields);
     progress.stage(message("weights from {} to {}", request.source, request.target));
     lines += request.scattered() ? interpolate_text(request, source, target, fields)
+             : parts             ? interpolate_in_parts(request, *parts, source, target, fields)
                                  : interpolate_cells(request, source, target, fields, progress);
     if (!request.output.empty()) {
       progress.writing(request.output);

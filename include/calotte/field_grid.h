@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -162,6 +163,44 @@ struct ScatteredFields {
 ///         position.
 ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& target,
                                       Interpolation kind = Interpolation::linear);
+
+/// A file of fields that is read in parts, so that a raster in the plane of a projection may be
+/// larger than memory: a part has some of its rows. Any other file is one part.
+class FieldParts {
+public:
+  /// \param choices as for read_field_grid(). \param most about as many cells are in a part.
+  /// \throws Error as read_field_grid().
+  explicit FieldParts(const std::string& path, const std::vector<FieldIndex>& choices = {},
+                      std::int64_t most = std::int64_t{1} << 20);
+
+  std::int64_t count() const; ///< of the parts, 1 or more
+
+  /// Reads the cells of a part, and their fields.
+  /// \param names of the fields that are read. Default: all.
+  /// \throws Error as read_field_grid().
+  FieldGrid read(std::int64_t part,
+                 const std::optional<std::vector<std::string>>& names = {}) const;
+
+private:
+  struct File;
+  std::shared_ptr<const File> file_;
+};
+
+/// Fields at a target, and of each of its cells' areas, what the source covers.
+struct CoveredFields {
+  std::vector<MeshField> fields;
+  DoubleVector target_fraction;
+};
+
+/// Takes fields from a file that is read in parts to the cells of a target: what interpolate()
+/// gives with conservative weights, up to the rounding of the sums. The result has the same bits
+/// for any number of threads. \param fields those that are taken, such as FieldParts::read(0) has
+/// them: their names, and
+///        whether they are categories; not their values.
+/// \throws Error as FieldParts::read() and interpolation_weights(); parse for a field of categories
+///         of which a part holds no 32-bit integers.
+CoveredFields interpolate_parts(const FieldParts& source, const std::vector<MeshField>& fields,
+                                const FieldGrid& target, double min_cover = 0);
 
 /// A format of files of weights, NetCDF.
 enum class WeightsFormat {

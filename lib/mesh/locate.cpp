@@ -318,6 +318,10 @@ base_detail::Points2Ref checked_positions(const Plane& plane, const PointsRef& g
   return positions;
 }
 
+void require_positions_of(const Surface& surface, const PointsRef& given) {
+  in_space_of(surface, [&](const Space auto& space) { checked_positions(space, given); });
+}
+
 Locations locate_within_rounding(const Mesh& mesh, const PointsRef& positions) {
   return locate(mesh, positions, Rim::within_rounding);
 }

@@ -3,12 +3,12 @@
 
 #include "base/parallel.h"
 #include "base/require.h"
+#include "remap/mean_sums.h"
 #include "remap/room.h"
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
 
 namespace calotte {
 namespace remap_detail {
@@ -37,19 +37,13 @@ Valid sum_valid(const Weights& weights, std::int64_t row, const double* values,
   return valid;
 }
 
-double heaviest_category(const Weights& weights, std::int64_t row, const double* values,
-                         std::int64_t stride) {
-  std::map<double, double> shares;
+CategoryShares shares_of_row(const Weights& weights, std::int64_t row, const double* values,
+                             std::int64_t stride) {
+  CategoryShares shares;
   for (Weights::InnerIterator entry(weights, row); entry; ++entry)
     if (const double value = values[entry.col() * stride]; !std::isnan(value))
       shares[value] += entry.value();
-  double best = missing, most = 0;
-  for (const auto& [value, share] : shares)
-    if (share > most) {
-      best = value;
-      most = share;
-    }
-  return best;
+  return shares;
 }
 
 } // namespace
@@ -64,8 +58,7 @@ MeshField interpolate(const GridWeights& weights, const MeshField& field, double
   require(field.values.size() == matrix.cols() * count,
           "the field {} has {} values for {} cells of the source; give {} for each", field.name,
           field.values.size(), matrix.cols(), count);
-  require(min_cover >= 0 && min_cover <= 1, "the least cover is {}; give a fraction from 0 to 1",
-          min_cover);
+  require_min_cover(min_cover);
   MeshField out = field;
   out.values.resize(matrix.rows() * count);
   for_each_block(matrix.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -75,10 +68,10 @@ MeshField interpolate(const GridWeights& weights, const MeshField& field, double
         const Valid valid = sum_valid(matrix, i, values, count);
         const double cover = weights.target_fraction[i] * valid.weight / valid.whole;
         double& value = out.values[i * count + k];
-        if (!(valid.weight > 0) || cover < min_cover * (1 - 1e-9))
+        if (!is_enough(valid.weight, cover, min_cover))
           value = missing;
         else if (field.integer)
-          value = heaviest_category(matrix, i, values, count);
+          value = heaviest_category(shares_of_row(matrix, i, values, count));
         else // divided where some do not count, so that other weights act as they are
           value =
               valid.weight == valid.whole ? valid.sum : valid.sum * (valid.whole / valid.weight);

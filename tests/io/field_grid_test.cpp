@@ -272,13 +272,19 @@ TEST_CASE("an index of a dimension between those of the cells") {
   writer.commit();
   std::vector<MeshField> fields;
   std::vector<std::string> ignored;
-  calotte::io_detail::read_fields_on(calotte::io_detail::NetcdfReader(path), {"lat", "lon"}, {},
-                                     FieldChoice::scalars, fields, ignored, {{"time", 1}});
-  REQUIRE(fields.size() == 1);
-  REQUIRE(fields[0].values.size() == 12);
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 3; ++i)
-      CHECK(fields[0].values[3 * j + i] == 8 * i + 4 + j);
+  const calotte::io_detail::NetcdfReader file(path);
+  calotte::io_detail::FieldsOn on{
+      .dimensions = {"lat", "lon"}, .choice = FieldChoice::scalars, .choices = {{"time", 1}}};
+  for (const auto& [first, count] : {std::pair(0, 4), {1, 2}, {3, 1}}) {
+    on.rows = {first, count};
+    fields.clear();
+    calotte::io_detail::read_fields_on(file, on, fields, ignored);
+    REQUIRE(fields.size() == 1);
+    REQUIRE(fields[0].values.size() == 3 * count);
+    for (int j = 0; j < count; ++j)
+      for (int i = 0; i < 3; ++i)
+        CHECK(fields[0].values[3 * j + i] == 8 * i + 4 + first + j);
+  }
 }
 
 TEST_CASE("methods between meshes and rasters of the sphere") {

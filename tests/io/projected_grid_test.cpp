@@ -4,7 +4,9 @@
 #include "support/files.h"
 #include "support/text.h"
 
+#include <calotte/delaunay.h>
 #include <calotte/field_grid.h>
+#include <calotte/generators.h>
 #include <calotte/remap.h>
 
 #include <doctest/doctest.h>
@@ -38,10 +40,11 @@ struct ProjectedRaster {
   std::vector<double> x{-300e3, -100e3, 100e3, 300e3}, y{-900e3, -1000e3, -1100e3};
   std::string unit = "m";
   bool x_first = false;
+  int format = NC_NETCDF4;
 
   void write(const std::string& path) const {
     int file = 0, dims[2], variables[2], crs = 0, field = 0;
-    REQUIRE(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &file) == NC_NOERR);
+    REQUIRE(nc_create(path.c_str(), format | NC_CLOBBER, &file) == NC_NOERR);
     const auto text = [&](int variable, const char* name, const std::string& value) {
       REQUIRE(nc_put_att_text(file, variable, name, value.size(), value.c_str()) == NC_NOERR);
     };
@@ -72,6 +75,32 @@ struct ProjectedRaster {
     REQUIRE(nc_close(file) == NC_NOERR);
   }
 };
+
+/// Adds the categories `mask` and `t` at two times, without values at the node 3 of y and time 0.
+void add_fields(const std::string& path, std::size_t columns, std::size_t rows) {
+  int file = 0, dims[3], mask = 0, t = 0;
+  REQUIRE(nc_open(path.c_str(), NC_WRITE, &file) == NC_NOERR);
+  REQUIRE(nc_redef(file) == NC_NOERR);
+  nc_def_dim(file, "time", 2, dims);
+  nc_inq_dimid(file, "y", dims + 1);
+  nc_inq_dimid(file, "x", dims + 2);
+  nc_def_var(file, "mask", NC_BYTE, 2, dims + 1, &mask);
+  nc_def_var(file, "t", NC_FLOAT, 3, dims, &t);
+  const float none = -9;
+  nc_put_att_float(file, t, "_FillValue", NC_FLOAT, 1, &none);
+  nc_enddef(file);
+  const std::size_t n = rows * columns;
+  std::vector<signed char> kinds(n);
+  std::vector<float> values(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    kinds[i] = static_cast<signed char>(i * i % 5);
+    values[i] = i / columns == 3 ? none : static_cast<float>(i);
+    values[n + i] = static_cast<float>(n + i);
+  }
+  nc_put_var_schar(file, mask, kinds.data());
+  nc_put_var_float(file, t, values.data());
+  REQUIRE(nc_close(file) == NC_NOERR);
+}
 
 } // namespace
 
@@ -201,6 +230,80 @@ TEST_CASE("cells of a projection keep integrals, in any order of their axes") {
   const DoubleVector areas = calotte::areas(cells);
   CHECK(areas.minCoeff() > 0);
   CHECK(std::abs(areas[0] * 6371e3 * 6371e3 / (200e3 * 100e3) - 1) < 0.08);
+}
+
+TEST_CASE("a raster that is read in parts gives what it gives as a whole") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.nc";
+  ProjectedRaster raster;
+  raster.x.clear(), raster.y.clear();
+  for (int i = 0; i < 24; ++i)
+    raster.x.push_back(-575e3 + 50e3 * i);
+  for (int j = 0; j < 17; ++j)
+    raster.y.push_back(-900e3 - 60e3 * j);
+  const FieldGrid boxes = *raster_of("360x180");
+  FieldGrid mesh{.name = "mesh"};
+  mesh.mesh.mesh = delaunay(fibonacci_sphere(20000));
+  FieldGrid masked = mesh;
+  masked.mask = Ids::Ones(20000);
+  masked.mask.head(200).setZero();
+  for (const int format : {NC_NETCDF4, NC_64BIT_OFFSET})
+    for (const bool x_first : {false, true}) {
+      raster.format = format, raster.x_first = x_first;
+      raster.write(path);
+      add_fields(path, raster.x.size(), raster.y.size());
+      const FieldGrid whole = read_field_grid(path);
+      REQUIRE(whole.fields.size() == 3);
+      CHECK(whole.fields[1].integer);
+      CHECK(whole.fields[2].values.array().isNaN().count() == 24);
+      CHECK(FieldParts(path).count() == 1);
+      CHECK(FieldParts(path, {}, 1).count() == 17);
+      const FieldParts parts(path, {}, 100);
+      CHECK(parts.count() == 5);
+      std::int64_t cells = 0;
+      for (std::int64_t k = 0; k < parts.count(); ++k) {
+        const FieldGrid part = parts.read(k, {{"mask"}});
+        REQUIRE(part.fields.size() == 1);
+        CHECK(part.fields[0].values == whole.fields[1].values.segment(cells, part.size()));
+        cells += part.size();
+      }
+      CHECK(cells == whole.size());
+      for (const FieldGrid& target : {boxes, mesh, masked}) {
+        const GridWeights weights =
+            interpolation_weights(whole, target, Interpolation::conservative);
+        for (const double min_cover : {0.0, 0.7}) {
+          const CoveredFields found = interpolate_parts(parts, whole.fields, target, min_cover);
+          CHECK((found.target_fraction - weights.target_fraction).cwiseAbs().maxCoeff() < 1e-13);
+          for (std::size_t f = 0; f < 3; ++f) {
+            CAPTURE(whole.fields[f].name);
+            const MeshField expected = interpolate(weights, whole.fields[f], min_cover);
+            CHECK(found.fields[f].name == expected.name);
+            CHECK(found.fields[f].integer == expected.integer);
+            REQUIRE(found.fields[f].values.size() == expected.values.size());
+            std::int64_t known = 0;
+            for (Eigen::Index i = 0; i < expected.values.size(); ++i) {
+              const double a = found.fields[f].values[i], b = expected.values[i];
+              CHECK(std::isnan(a) == std::isnan(b));
+              CHECK_FALSE(std::abs(a - b) > 1e-11 * (1 + std::abs(b)));
+              known += std::isnan(b) ? 0 : 1;
+            }
+            CHECK(known > 20);
+          }
+        }
+      }
+    }
+  const FieldParts at(path, {{"time", 1}}, 100);
+  CHECK(at.read(1, {{"bed"}}).fields.size() == 1); // the choice belongs to another field
+  const FieldGrid first = at.read(0, {{"t"}});
+  CHECK(first.fields[0].count() == 1);
+  CHECK(first.fields[0].values[1] == doctest::Approx(1 + 24 * 17));
+  CHECK(has(error_of([&] {
+              FieldParts(path, {{"depth", 1}}, 100).read(0);
+            }).what(),
+            "no field has a dimension depth"));
+  CHECK(has(error_of([&] { at.read(5); }).what(), "there is no part 5; give 0 to 4"));
+  CHECK(has(error_of([&] { interpolate_parts(at, {MeshField{.name = "u"}}, mesh); }).what(),
+            "has no field u at cells"));
 }
 
 TEST_CASE("grid mappings that cannot be read are named") {

@@ -208,9 +208,12 @@ RawMesh read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice c
   raw.corner_rounding = find_rounding(file, rows.corner_longitude);
   std::vector<std::string> dimensions = file.dimensions_of(rows.corner_longitude);
   dimensions.erase(rows.corners_first ? dimensions.begin() : std::prev(dimensions.end()));
-  read_fields_on(file, dimensions,
-                 {rows.corner_longitude, rows.corner_latitude, rows.longitude, rows.latitude},
-                 choice, raw.fields, raw.ignored);
+  read_fields_on(
+      file,
+      {.dimensions = dimensions,
+       .no_fields = {rows.corner_longitude, rows.corner_latitude, rows.longitude, rows.latitude},
+       .choice = choice},
+      raw.fields, raw.ignored);
   drop_derived_fields(raw);
   return raw;
 }

@@ -13,6 +13,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -130,21 +131,24 @@ bool fit_int(const DoubleVector& values) {
 ///        slowest first.
 /// \param indices by dimension of the field; its values are those there, and it loses these
 ///        dimensions.
+/// \param rows see FieldsOn.
 /// \pre name, location, dimensions and `leading` are set.
 void read_values(const NetcdfReader& file, const std::vector<std::size_t>& of_location,
-                 MeshField& field, std::vector<std::optional<std::int64_t>> indices = {}) {
-  std::vector<std::int64_t> shape = file.shape_of(field.name);
+                 MeshField& field, std::vector<std::optional<std::int64_t>> indices = {},
+                 const decltype(FieldsOn::rows)& rows = {}) {
+  std::vector<std::int64_t> count = file.shape_of(field.name), start(count.size(), 0);
   field.long_name = file.text(field.name, "long_name");
   field.units = file.text(field.name, "units");
-  const bool first_is_other = std::ranges::find(of_location, 0U) == of_location.end();
-  if (!indices.empty() && indices[0] && first_is_other) {
-    const std::vector<double> row = cf_row(file, field.name, *indices[0]);
-    shape[0] = field.dimensions[0].size = 1;
-    indices[0] = 0;
-    field.values = grouped_by_item(row, shape, of_location);
-  } else {
-    field.values = grouped_by_item(cf_values(file, field.name, shape), shape, of_location);
-  }
+  const std::size_t before = std::min(*std::ranges::min_element(of_location), indices.size());
+  for (std::size_t d = 0; d < before; ++d)
+    if (indices[d]) {
+      start[d] = *indices[d];
+      count[d] = field.dimensions[d].size = 1;
+      indices[d] = 0;
+    }
+  if (rows)
+    std::tie(start[of_location[0]], count[of_location[0]]) = *rows;
+  field.values = grouped_by_item(cf_part(file, field.name, start, count), count, of_location);
   field = field_at_indices(std::move(field), indices);
   field.integer =
       file.is_integer(field.name) && !is_packed(file, field.name) && fit_int(field.values);
@@ -218,31 +222,31 @@ bool is_along_edges(const std::string& name, const std::string& long_name,
   return words.find("normal") != std::string::npos || words.find("tangent") != std::string::npos;
 }
 
-void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
-                    const std::set<std::string>& no_fields, FieldChoice choice,
-                    std::vector<MeshField>& fields, std::vector<std::string>& ignored,
-                    const std::vector<FieldIndex>& choices, std::vector<MeshField>* not_scalars) {
-  if (choice == FieldChoice::none)
+void read_fields_on(const NetcdfReader& file, const FieldsOn& on, std::vector<MeshField>& fields,
+                    std::vector<std::string>& ignored, std::vector<MeshField>* not_scalars) {
+  if (on.choice == FieldChoice::none)
     return;
   std::vector<FieldDimension> all; // of all fields
-  std::vector<FieldIndex> unused = choices;
+  std::vector<FieldIndex> unused = on.choices;
   for (const std::string& name : file.variable_names()) {
-    if (no_fields.contains(name))
+    if (on.no_fields.contains(name))
       continue;
     const auto of_location = file.is_numeric(name)
-                                 ? find_dimensions(file.dimensions_of(name), dimensions)
+                                 ? find_dimensions(file.dimensions_of(name), on.dimensions)
                                  : std::nullopt;
     std::optional<MeshField> field =
         of_location ? make_field_on(file, name, *of_location) : std::nullopt;
-    const auto indices = field ? find_indices(field->dimensions, choices)
+    const auto indices = field ? find_indices(field->dimensions, on.choices)
                                : std::vector<std::optional<std::int64_t>>();
     if (field) {
       add_new(field->dimensions, all);
       std::erase_if(unused,
                     [&](const FieldIndex& index) { return belongs(index, field->dimensions); });
     }
+    if (field && on.only && std::ranges::find(*on.only, name) == on.only->end())
+      continue;
     const bool left_out =
-        field && choice == FieldChoice::scalars && count_left(*field, indices) > 1;
+        field && on.choice == FieldChoice::scalars && count_left(*field, indices) > 1;
     if (left_out && not_scalars != nullptr) {
       not_scalars->push_back(*std::move(field));
       continue;
@@ -251,7 +255,7 @@ void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& di
       ignored.push_back(name);
       continue;
     }
-    read_values(file, *of_location, *field, indices);
+    read_values(file, *of_location, *field, indices, on.rows);
     fields.push_back(*std::move(field));
   }
   if (!unused.empty())

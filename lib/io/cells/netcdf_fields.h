@@ -6,8 +6,11 @@
 #include "io/netcdf/netcdf_reader.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte::io_detail {
@@ -36,20 +39,29 @@ bool is_along_edges(const std::string& name, const std::string& long_name,
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
                  RawMesh& raw);
 
-/// Reads the variables that have some dimensions, each once, as fields of cells. Cells are numbered
-/// over these dimensions, the last one fastest. Other dimensions may be in any position.
-/// \param no_fields variables that are neither read nor listed.
+/// Which variables read_fields_on() takes, and what of them.
+struct FieldsOn {
+  /// Those of the cells, which are numbered over them, the last one fastest.
+  std::vector<std::string> dimensions;
+  std::set<std::string> no_fields = {};              ///< variables that are neither read nor listed
+  std::optional<std::vector<std::string>> only = {}; ///< names of the fields that are read
+  FieldChoice choice = FieldChoice::all;
+  /// Indices for those fields that have such a dimension. Of dimensions before those of the cells
+  /// only that index is read.
+  std::vector<FieldIndex> choices = {};
+  /// The first row, by the first of the dimensions, and their number: other cells are left out.
+  std::optional<std::pair<std::int64_t, std::int64_t>> rows = {};
+};
+
+/// Reads the variables that have all dimensions of cells, each once, as fields. Other dimensions
+/// may be in any position.
 /// \param ignored receives the names of the other variables.
-/// \param choices indices for those fields that have such a dimension; of the first dimension of a
-///        variable only that index is read.
 /// \param not_scalars receives, if it is given, the fields with several numbers for each cell that
 ///        FieldChoice::scalars leaves out, without values; they are not among the ignored.
 /// \throws Error parse, file; invalid_argument as find_indices(), and for a choice that belongs to
 ///         no field.
-void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
-                    const std::set<std::string>& no_fields, FieldChoice choice,
-                    std::vector<MeshField>& fields, std::vector<std::string>& ignored,
-                    const std::vector<FieldIndex>& choices = {},
+void read_fields_on(const NetcdfReader& file, const FieldsOn& on, std::vector<MeshField>& fields,
+                    std::vector<std::string>& ignored,
                     std::vector<MeshField>* not_scalars = nullptr);
 
 /// Reads a variable as a field of cells at chosen indices.

@@ -128,14 +128,22 @@ Weights at_positions(const FieldGrid& source, const Points3& positions, Interpol
                                         : on_triangles(source, positions, kind);
 }
 
+/// Calls body(cells) with the cells of a grid, in place if it has them.
+template <class Body> GridWeights with_cells(const FieldGrid& grid, const Body& body) {
+  return grid.mesh.polygons ? body(*grid.mesh.polygons) : body(cells_of(grid));
+}
+
 GridWeights conservative(const FieldGrid& source, const FieldGrid& target) {
   if (source.boxes && target.boxes)
     return conservative_weights(*source.boxes, *target.boxes);
   if (source.boxes)
-    return conservative_weights(*source.boxes, cells_of(target));
-  if (target.boxes)
-    return conservative_weights(cells_of(source), *target.boxes);
-  return conservative_weights(cells_of(source), cells_of(target));
+    return with_cells(
+        target, [&](const Polygons& cells) { return conservative_weights(*source.boxes, cells); });
+  return with_cells(source, [&](const Polygons& from) {
+    if (target.boxes)
+      return conservative_weights(from, *target.boxes);
+    return with_cells(target, [&](const Polygons& to) { return conservative_weights(from, to); });
+  });
 }
 
 /// Finds the dimension of the cells by its name or size.
@@ -318,7 +326,8 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice,
       return raster;
     }
     if (const std::optional<ProjectedAxes> axes = projected_axes(file)) {
-      FieldGrid raster = read_projected_grid(file, *axes, choice, choices);
+      const ProjectedRaster all(file, *axes);
+      FieldGrid raster = all.read(0, all.rows(), choice, choices);
       require_records(path, raster, choice);
       return raster;
     }
@@ -358,8 +367,9 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
       coordinates.insert(name);
   const std::string cells = find_cell_dimension(file, grid);
   require_order(path, grid.mesh, mesh_path);
-  read_fields_on(file, {cells}, coordinates, choice, grid.fields, grid.ignored, choices,
-                 &grid.not_scalars);
+  read_fields_on(
+      file, {.dimensions = {cells}, .no_fields = coordinates, .choice = choice, .choices = choices},
+      grid.fields, grid.ignored, &grid.not_scalars);
   grid.name = path;
   apply_mask(grid);
   require_records(path, grid, choice);

@@ -6,7 +6,6 @@
 #include "base/points.h"
 #include "io/cells/netcdf_fields.h"
 #include "io/netcdf/cf_values.h"
-#include "io/netcdf/projection.h"
 
 #include <calotte/read.h>
 
@@ -15,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -70,7 +70,7 @@ std::vector<double> read_sides(const NetcdfReader& file, const std::string& axis
 
 /// The corners of all boxes, a row of x for each y.
 Points3 corners_of(const NetcdfReader& file, const Projection& projection,
-                   const std::vector<double>& x, const std::vector<double>& y) {
+                   std::span<const double> x, std::span<const double> y) {
   const std::int64_t wide = std::ssize(x);
   Points3 corners(3, wide * std::ssize(y));
   base_detail::for_each_block(
@@ -220,16 +220,25 @@ std::optional<ProjectedAxes> projected_axes(const NetcdfReader& file) {
   return std::nullopt;
 }
 
-FieldGrid read_projected_grid(const NetcdfReader& file, const ProjectedAxes& axes,
-                              FieldChoice choice, const std::vector<FieldIndex>& choices) {
-  const Projection projection(file, axes.mapping);
-  const std::vector<double> x = read_sides(file, axes.x, projection),
-                            y = read_sides(file, axes.y, projection);
-  const std::int64_t columns = std::ssize(x) - 1, rows = std::ssize(y) - 1;
-  require_few(file, columns, rows);
-  FieldGrid grid = grid_of(file, corners_of(file, projection, x, y), columns, rows);
-  read_fields_on(file, {axes.y, axes.x}, {axes.x, axes.y, axes.mapping}, choice, grid.fields,
-                 grid.ignored, choices);
+ProjectedRaster::ProjectedRaster(const NetcdfReader& file, const ProjectedAxes& axes)
+    : file_(file), axes_(axes), projection_(file, axes.mapping),
+      x_(read_sides(file, axes.x, projection_)), y_(read_sides(file, axes.y, projection_)) {}
+
+FieldGrid ProjectedRaster::read(std::int64_t first, std::int64_t count, FieldChoice choice,
+                                const std::vector<FieldIndex>& choices,
+                                const std::optional<std::vector<std::string>>& only) const {
+  require_few(file_, columns(), count);
+  const auto y =
+      std::span(y_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count) + 1);
+  FieldGrid grid = grid_of(file_, corners_of(file_, projection_, x_, y), columns(), count);
+  read_fields_on(file_,
+                 {.dimensions = {axes_.y, axes_.x},
+                  .no_fields = {axes_.x, axes_.y, axes_.mapping},
+                  .only = only,
+                  .choice = choice,
+                  .choices = choices,
+                  .rows = {{first, count}}},
+                 grid.fields, grid.ignored);
   return grid;
 }
 
@@ -256,8 +265,12 @@ FieldGrid read_curvilinear_grid(const NetcdfReader& file, const RasterAxes& axes
                                 FieldChoice choice, const std::vector<FieldIndex>& choices) {
   const Centres centres = read_centres(file, axes);
   FieldGrid grid = grid_of(file, corners_between(centres), centres.columns, centres.rows);
-  read_fields_on(file, file.dimensions_of(axes.longitude), {axes.longitude, axes.latitude}, choice,
-                 grid.fields, grid.ignored, choices);
+  read_fields_on(file,
+                 {.dimensions = file.dimensions_of(axes.longitude),
+                  .no_fields = {axes.longitude, axes.latitude},
+                  .choice = choice,
+                  .choices = choices},
+                 grid.fields, grid.ignored);
   return grid;
 }
 

@@ -69,8 +69,12 @@ FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, Fie
                            const std::vector<FieldIndex>& choices) {
   FieldGrid grid{.name = file.path()};
   grid.boxes = read_boxes(file, axes);
-  read_fields_on(file, {axes.latitude, axes.longitude}, {axes.latitude, axes.longitude}, choice,
-                 grid.fields, grid.ignored, choices);
+  read_fields_on(file,
+                 {.dimensions = {axes.latitude, axes.longitude},
+                  .no_fields = {axes.latitude, axes.longitude},
+                  .choice = choice,
+                  .choices = choices},
+                 grid.fields, grid.ignored);
   return grid;
 }
 

@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "exact/space.h"
 #include "io/fields/centres.h"
 #include "mesh/locate.h"
 
@@ -203,9 +202,7 @@ void require_scattered(const FieldGrid& source, Interpolation kind) {
         base_detail::refuse_at(i, "value {} of {} is infinite; give a number, or NaN for none",
                                field.name);
   }
-  exact_detail::in_space_of(source.positions->surface, [&](const exact_detail::Space auto& space) {
-    mesh_detail::checked_positions(space, source.positions->points);
-  });
+  mesh_detail::require_positions_of(source.positions->surface, source.positions->points);
 }
 
 } // namespace

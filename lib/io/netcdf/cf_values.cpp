@@ -98,12 +98,10 @@ std::vector<double> cf_values(const NetcdfReader& file, const std::string& varia
   return interpreted(file, variable, file.doubles(variable, shape));
 }
 
-std::vector<double> cf_row(const NetcdfReader& file, const std::string& variable,
-                           std::int64_t row) {
-  const std::size_t rank = file.shape_of(variable).size();
-  std::vector<double> values(static_cast<std::size_t>(file.product(file.find(variable), 1, rank)));
-  file.rows(variable, row, 1, values.data());
-  return interpreted(file, variable, std::move(values));
+std::vector<double> cf_part(const NetcdfReader& file, const std::string& variable,
+                            const std::vector<std::int64_t>& start,
+                            const std::vector<std::int64_t>& count) {
+  return interpreted(file, variable, file.part(variable, start, count));
 }
 
 bool is_packed(const NetcdfReader& file, const std::string& variable) {

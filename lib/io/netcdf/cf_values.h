@@ -21,8 +21,10 @@ namespace calotte::io_detail {
 std::vector<double> cf_values(const NetcdfReader& file, const std::string& variable,
                               const std::vector<std::int64_t>& shape);
 
-/// The same of one row: the values whose first index is `row`. \pre the row exists.
-std::vector<double> cf_row(const NetcdfReader& file, const std::string& variable, std::int64_t row);
+/// The same of a part, as NetcdfReader::part().
+std::vector<double> cf_part(const NetcdfReader& file, const std::string& variable,
+                            const std::vector<std::int64_t>& start,
+                            const std::vector<std::int64_t>& count);
 
 /// Whether a variable's numbers are packed. \pre it exists.
 bool is_packed(const NetcdfReader& file, const std::string& variable);

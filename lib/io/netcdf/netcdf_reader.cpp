@@ -318,6 +318,15 @@ std::vector<T> NetcdfReader::get_all(const std::string& variable,
     fail("{} has the shape {} instead of {}; make the file again", variable, in_words(has),
          in_words(shape));
   const std::int64_t count = product(find(variable), 0, has.size());
+  std::vector<T> values = room_for<T>(variable, count);
+  if (count > 0)
+    get_rows(find(variable), 0, has.empty() ? 1 : has[0], values.data());
+  return values;
+}
+
+/// Memory for values of a variable.
+template <class T>
+std::vector<T> NetcdfReader::room_for(const std::string& variable, std::int64_t count) const {
   // The largest compression ratio of deflate, for a file that stores each value in some form.
   constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
   if (count > least && count / most_compressed > file_.size() / std::int64_t{sizeof(T)})
@@ -328,8 +337,41 @@ std::vector<T> NetcdfReader::get_all(const std::string& variable,
   } catch (const std::exception&) {
     fail("{} is too large for this machine's memory; read it on a larger one", variable);
   }
-  if (count > 0)
-    get_rows(find(variable), 0, has.empty() ? 1 : has[0], values.data());
+  return values;
+}
+
+std::vector<double> NetcdfReader::part(const std::string& variable,
+                                       const std::vector<std::int64_t>& start,
+                                       const std::vector<std::int64_t>& count) const {
+  const int id = require_variable(variable);
+  const std::size_t rank = count.size();
+  std::int64_t all = 1;
+  for (const std::int64_t entries : count)
+    all *= entries;
+  std::vector<double> values = room_for<double>(variable, all);
+  if (all == 0)
+    return values;
+  if (library_) {
+    std::vector<std::size_t> from(start.begin(), start.end()), entries(count.begin(), count.end());
+    from.push_back(0), entries.push_back(1); // of variables without dimensions
+    library_->get(id, from, entries, values.data());
+    return values;
+  }
+  std::size_t whole = rank; // the dimensions from here on are whole
+  while (whole > 0 && count[whole - 1] == product(id, whole - 1, whole))
+    --whole;
+  const std::size_t axis = whole > 0 ? whole - 1 : 0; // values of the same indices before it adjoin
+  const std::int64_t run = rank > 0 ? count[axis] * product(id, axis + 1, rank) : 1;
+  for (std::int64_t k = 0; k < all / run; ++k) {
+    std::int64_t first = 0, rest = k;
+    for (std::size_t d = std::min(axis + 1, rank); d-- > 0;) {
+      const std::int64_t entries = d == axis ? 1 : count[d];
+      first += (start[d] + rest % entries) * product(id, d + 1, rank);
+      rest /= entries;
+    }
+    get_values(id, first, run, values.data() + k * run);
+  }
+  file_.require_whole();
   return values;
 }
 

@@ -88,6 +88,10 @@ public:
                               const std::vector<std::int64_t>& shape) const;
   std::vector<std::int32_t> ints(const std::string& variable,
                                  const std::vector<std::int64_t>& shape) const;
+  /// Reads the part of a variable that starts at the indices `start` and has `count` entries along
+  /// each dimension, converted. \pre it is within the variable.
+  std::vector<double> part(const std::string& variable, const std::vector<std::int64_t>& start,
+                           const std::vector<std::int64_t>& count) const;
   /// Reads rows first to first + count - 1 of a variable, converted. Row i has all values whose
   /// first index is i. A variable without dimensions is one row.
   /// \pre the rows exist, and `out` has space for them.
@@ -112,6 +116,7 @@ private:
   void require_values() const;
   void require_sizes() const;
   void require_converted(const NetcdfVariable& variable, const char* problem) const;
+  template <class T> std::vector<T> room_for(const std::string& variable, std::int64_t count) const;
   template <class T>
   std::vector<T> get_all(const std::string& variable, const std::vector<std::int64_t>& shape) const;
   template <class T>
