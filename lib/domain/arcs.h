@@ -113,7 +113,7 @@ public:
     const double sine = dot(normal_, p), square = std::min(1.0, sine * sine),
                  beside = 2 * square / (1 + std::sqrt(1 - square));
     const Vec3 a = p - arc_.from, b = p - arc_.to;
-    const bool is_beside = (dot(from_start_, p) >= 0) & (dot(to_end_, p) >= 0);
+    const bool is_beside = std::min(dot(from_start_, p), dot(to_end_, p)) >= 0; // without a branch
     return is_beside ? beside : std::min(dot(a, a), dot(b, b));
   }
 
