@@ -491,7 +491,7 @@ TEST_CASE("units of widths: km and m by symbol and name, and no other") {
     CAPTURE(unit);
     CHECK_THROWS_WITH_AS(
         kilometres_in(unit),
-        ("the unit \"" + unit + "\" is not one of cell widths; give km or m").c_str(), Error);
+        ("the unit \"" + unit + "\" is no length; give km or m").c_str(), Error);
   }
   const InputFolder folder;
   const Raster width = sampled_field(smooth, 24, 12);
@@ -502,7 +502,7 @@ TEST_CASE("units of widths: km and m by symbol and name, and no other") {
   }
   raster.attributes = {{"units", std::string("degrees")}};
   CHECK(refusal_of_widths(raster_file(folder, raster)) ==
-        ": cellWidth: the unit \"degrees\" is not one of cell widths; give km or m");
+        ": cellWidth: the unit \"degrees\" is no length; give km or m");
   raster.variable = "density"; // of which the unit does not matter
   CHECK(widths_of_density(
             read_raster(raster_file(folder, raster), {.quantity = RasterQuantity::density}))

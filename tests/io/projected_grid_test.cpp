@@ -33,6 +33,12 @@ const Numbers wgs84{{"semi_major_axis", {6378137}}, {"inverse_flattening", {298.
               {"standard_parallel", {70}},
               {"straight_vertical_longitude_from_pole", {-45}}};
 
+Numbers antarctic(double parallel) {
+  return {{"latitude_of_projection_origin", {-90}},
+          {"standard_parallel", {parallel}},
+          {"straight_vertical_longitude_from_pole", {0}}};
+}
+
 /// A raster of a projection with a field of j + 10 i at the node j of y and i of x.
 struct ProjectedRaster {
   std::string mapping = "polar_stereographic";
@@ -102,6 +108,30 @@ void add_fields(const std::string& path, std::size_t columns, std::size_t rows) 
   REQUIRE(nc_close(file) == NC_NOERR);
 }
 
+/// Adds two-dimensional longitudes and latitudes of `bed`.
+void add_coordinates(const std::string& path, std::size_t columns, std::size_t rows) {
+  int file = 0, dims[2], lon = 0, lat = 0, field = 0;
+  REQUIRE(nc_open(path.c_str(), NC_WRITE, &file) == NC_NOERR);
+  REQUIRE(nc_redef(file) == NC_NOERR);
+  nc_inq_dimid(file, "y", dims);
+  nc_inq_dimid(file, "x", dims + 1);
+  nc_inq_varid(file, "bed", &field);
+  nc_def_var(file, "lon", NC_DOUBLE, 2, dims, &lon);
+  nc_def_var(file, "lat", NC_DOUBLE, 2, dims, &lat);
+  nc_put_att_text(file, lon, "units", 12, "degrees_east");
+  nc_put_att_text(file, lat, "units", 13, "degrees_north");
+  nc_put_att_text(file, field, "coordinates", 7, "lon lat");
+  nc_enddef(file);
+  std::vector<double> longitudes, latitudes;
+  for (std::size_t k = 0; k < rows * columns; ++k) {
+    longitudes.push_back(static_cast<double>(k % columns));
+    latitudes.push_back(50 + static_cast<double>(k / columns));
+  }
+  nc_put_var_double(file, lon, longitudes.data());
+  nc_put_var_double(file, lat, latitudes.data());
+  REQUIRE(nc_close(file) == NC_NOERR);
+}
+
 } // namespace
 
 TEST_CASE("projections have the longitudes and latitudes of PROJ") {
@@ -115,24 +145,10 @@ TEST_CASE("projections have the longitudes and latitudes of PROJ") {
   for (const Case& c : {
            Case{"polar_stereographic", greenland, true, -600e3, -2500e3, -58.495733280796,
                 66.584707215025},
-           Case{"polar_stereographic",
-                {{"latitude_of_projection_origin", {-90}},
-                 {"standard_parallel", {-71}},
-                 {"straight_vertical_longitude_from_pole", {0}}},
-                true,
-                1234567,
-                -987654,
-                128.659819573507,
+           Case{"polar_stereographic", antarctic(-71), true, 1234567, -987654, 128.659819573507,
                 -75.523253590789},
-           Case{"polar_stereographic", // the parallel without its sign
-                {{"latitude_of_projection_origin", {-90}},
-                 {"standard_parallel", {71}},
-                 {"straight_vertical_longitude_from_pole", {0}}},
-                true,
-                1234567,
-                -987654,
-                128.659819573507,
-                -75.523253590789},
+           Case{"polar_stereographic", antarctic(71), true, 1234567, -987654, 128.659819573507,
+                -75.523253590789}, // the parallel without its sign
            Case{"lambert_conformal_conic",
                 {{"standard_parallel", {33, 45}},
                  {"longitude_of_central_meridian", {-97}},
@@ -321,12 +337,20 @@ TEST_CASE("grid mappings that cannot be read are named") {
   CHECK(has(refusal({.x = {0, 1, 1}}), "x[2] does not ascend or descend"));
   CHECK(has(refusal({.x = {0, NAN, 1}}), "x[1] does not"));
   CHECK(has(refusal({.x = {5}}), "x has 1 values; give two nodes or more"));
-  CHECK(has(refusal({.unit = "degrees"}), "degrees"));
+  CHECK(has(refusal({.unit = "degrees"}), "a.nc: x: the unit \"degrees\" is no length"));
   CHECK(has(refusal({.mapping = "lambert_azimuthal_equal_area",
                      .numbers = {{"longitude_of_projection_origin", {0}},
                                  {"latitude_of_projection_origin", {90}}},
                      .x = {-2e7, 2e7}}),
             "outside of what the projection shows"));
+  CHECK(has(refusal({.mapping = "transverse_mercator"}), "gdalwarp"));
+  add_coordinates(path, 4, 3); // which serve then
+  const FieldGrid grid = read_field_grid(path);
+  CHECK(grid.size() == 12);
+  REQUIRE(grid.fields.size() == 1);
+  CHECK(grid.fields[0].values[1] == 10);
+  CHECK((grid.mesh.polygons->corners.row(2).array() > 0).all());
+  CHECK(FieldParts(path, {}, 4).count() == 1);
 }
 
 namespace {

@@ -52,9 +52,12 @@ std::vector<double> read_sides(const NetcdfReader& file, const std::string& axis
   if (n < 2)
     file.fail("{} has {} values; give two nodes or more", axis, n);
   const std::string unit = file.text(axis, "units");
-  if (!projection.of_degrees() && !unit.empty())
+  if (!projection.of_degrees() && !unit.empty()) {
+    const double metres =
+        1000 * named(file.path() + ": " + axis, [&] { return kilometres_in(unit); });
     for (double& node : nodes)
-      node *= 1000 * kilometres_in(unit);
+      node *= metres;
+  }
   for (std::size_t i = 0; i < n; ++i)
     if (!std::isfinite(nodes[i]) ||
         (i > 1 && !((nodes[i] - nodes[i - 1]) * (nodes[1] - nodes[0]) > 0)) ||
@@ -214,8 +217,11 @@ std::optional<ProjectedAxes> projected_axes(const NetcdfReader& file) {
       continue;
     const std::vector<std::string> dimensions = file.dimensions_of(name);
     ProjectedAxes axes{find_axis(file, dimensions, 'x'), find_axis(file, dimensions, 'y'), mapping};
-    if (!axes.x.empty() && !axes.y.empty())
-      return axes;
+    if (axes.x.empty() || axes.y.empty())
+      continue;
+    if (!Projection::reads(file.text(mapping, "grid_mapping_name")) && curvilinear_axes(file))
+      return std::nullopt;
+    return axes;
   }
   return std::nullopt;
 }

@@ -24,7 +24,7 @@ struct ProjectedAxes {
 };
 
 /// The axes of the first variable with a grid mapping other than latitude_longitude; none without
-/// one.
+/// one, and none if that mapping is not read but the file has two-dimensional coordinates.
 std::optional<ProjectedAxes> projected_axes(const NetcdfReader& file);
 
 /// A raster in the plane of a projection, of which any rows can be read. Its cells are polygons of

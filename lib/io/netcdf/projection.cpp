@@ -259,25 +259,42 @@ struct Shifted : Projection::Inverse {
   double east, north;
 };
 
+struct Mapping {
+  const char* name;
+  std::shared_ptr<const Projection::Inverse> (*make)(const Parameters&);
+};
+
+template <class Of> std::shared_ptr<const Projection::Inverse> make(const Parameters& of) {
+  return std::make_shared<Of>(of);
+}
+
+constexpr const char* rotated_pole = "rotated_latitude_longitude";
+constexpr std::array<Mapping, 4> mappings{{{"polar_stereographic", make<PolarStereographic>},
+                                           {"lambert_conformal_conic", make<LambertConformal>},
+                                           {"lambert_azimuthal_equal_area", make<LambertEqualArea>},
+                                           {rotated_pole, make<RotatedPole>}}};
+
+const Mapping* find_mapping(const std::string& name) {
+  const auto* const found =
+      std::ranges::find_if(mappings, [&](const Mapping& mapping) { return mapping.name == name; });
+  return found == mappings.end() ? nullptr : found;
+}
+
 } // namespace
+
+bool Projection::reads(const std::string& name) { return find_mapping(name) != nullptr; }
 
 Projection::Projection(const NetcdfReader& file, const std::string& mapping) {
   const std::string name = file.text(mapping, "grid_mapping_name");
   const Parameters of(file, mapping);
-  of_degrees_ = name == "rotated_latitude_longitude";
-  if (name == "polar_stereographic")
-    inverse_ = std::make_shared<PolarStereographic>(of);
-  else if (name == "lambert_conformal_conic")
-    inverse_ = std::make_shared<LambertConformal>(of);
-  else if (name == "lambert_azimuthal_equal_area")
-    inverse_ = std::make_shared<LambertEqualArea>(of);
-  else if (of_degrees_)
-    inverse_ = std::make_shared<RotatedPole>(of);
-  else
+  of_degrees_ = name == rotated_pole;
+  const Mapping* const found = find_mapping(name);
+  if (found == nullptr)
     file.fail("the grid mapping {} is {}; polar_stereographic, lambert_conformal_conic, "
               "lambert_azimuthal_equal_area and rotated_latitude_longitude are read; convert the "
               "file with GDAL: gdalwarp -t_srs EPSG:4326 -of netCDF",
               mapping, in_quotes(name));
+  inverse_ = found->make(of);
   const double east = of.find("false_easting").value_or(0),
                north = of.find("false_northing").value_or(0);
   if (east != 0 || north != 0)

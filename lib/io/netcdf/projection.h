@@ -21,6 +21,9 @@ public:
   ///         missing or out of range.
   Projection(const NetcdfReader& file, const std::string& mapping);
 
+  /// Whether a grid_mapping_name is one of these.
+  static bool reads(const std::string& name);
+
   /// Longitude and geodetic latitude in degrees; NaN outside of what the plane shows.
   /// \param x, y metres; of a rotated pole degrees.
   std::array<double, 2> lonlat(double x, double y) const { return inverse_->lonlat(x, y); }
