@@ -29,6 +29,15 @@ void look_up(const calotte_mesh* mesh, const Eigen::MatrixXd& positions) {
     if (calotte_locator_nearest(locator, positions.data(), positions.cols(), 1, sites.data(),
                                 nullptr) == 0)
       require(sites == nearest);
+    std::vector<std::int64_t> begin(n + 1);
+    if (calotte_locator_within(locator, positions.data(), positions.cols(), 0.5, begin.data(),
+                               nullptr, nullptr) == 0) {
+      std::vector<std::int32_t> within(static_cast<std::size_t>(begin[n]), -2);
+      require(calotte_locator_within(locator, positions.data(), positions.cols(), 0.5, begin.data(),
+                                     within.data(), nullptr) == 0);
+      for (const std::int32_t site : within)
+        require(site >= 0 && site < view.sites);
+    }
     calotte_locator_free(locator);
   }
   for (const int natural : {0, 1})
@@ -50,6 +59,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const int rows = surface.kind == CALOTTE_PLANE ? 2 : 3;
   const Eigen::MatrixXd points = bytes.columns(rows, 60);
+  std::vector<double> areas(static_cast<std::size_t>(points.cols()));
+  if (calotte_area_weights(points.data(), points.cols(), &surface, bytes.integer(-1, 5), 0.3,
+                           areas.data(), nullptr) == 0)
+    for (const double area : areas)
+      require(area >= 0);
   calotte_mesh* mesh = nullptr;
   calotte_error error;
   calotte_error_init(&error);
