@@ -45,7 +45,8 @@ struct AreaWeightOptions {
 /// \returns one weight for each point: steradians, in a plane the square of its unit.
 /// \throws Error as triangulate(), in a part that rings bound as voronoi(); invalid_argument for an
 ///         option out of range, for an edge in a part that rings bound, for whole cells in a
-///         plane without an end, and for a hull in a channel.
+///         plane without an end, for a hull in a channel, and with the index of the point where
+///         points are so near, as 1e-60, that areas are no numbers.
 DoubleVector area_weights(const PointsRef& points, const Surface& surface = {},
                           const AreaWeightOptions& options = {});
 

@@ -56,7 +56,7 @@ struct State {
   /// says which; checkpoints do not.
   struct {
     std::int64_t first = 0, inner = 0, end = 0;
-    bool contain(std::int32_t id) const { return id >= first && id < end; }
+    bool contain(std::int32_t generator) const { return generator >= first && generator < end; }
   } on_lines;
   Cursor cursor;
   Polish polish;

@@ -168,10 +168,10 @@ void DensityEvaluator::operator()(const Vec3* columns, std::int64_t count, doubl
       const auto at = static_cast<std::size_t>(j);
       rows[0][at] = x.x, rows[1][at] = x.y, rows[2][at] = x.z;
     }
-    const auto row = [&](std::size_t i) {
+    const auto block = [&](std::size_t i) {
       return std::span<const double>(rows[i]).first(static_cast<std::size_t>(size));
     };
-    (*this)(row(0), row(1), row(2), {rho + begin, static_cast<std::size_t>(size)});
+    (*this)(block(0), block(1), block(2), {rho + begin, static_cast<std::size_t>(size)});
   }
 }
 

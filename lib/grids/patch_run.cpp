@@ -149,7 +149,7 @@ struct Bounds {
 /// The sites on a ring from one that stays on, if there is one.
 std::vector<std::int32_t> from_fixed(const PatchRegion& patch, std::vector<std::int32_t> ring) {
   const auto first = std::ranges::find_if(ring, [&](auto site) { return site < patch.fixed; });
-  std::ranges::rotate(ring, first == ring.end() ? ring.begin() : first);
+  std::rotate(ring.begin(), first == ring.end() ? ring.begin() : first, ring.end());
   return ring;
 }
 

@@ -162,9 +162,10 @@ void keep_necks(std::vector<FittedRing>& rings) {
   const FittedArcs all = arcs_of(rings);
   const ArcTree tree(all.rings.arcs.items);
   for (std::size_t k = 0; k < all.starts.size(); ++k) {
-    const auto [ring, corner] = all.starts[k];
+    FittedRing& ring = rings[all.starts[k].first];
+    const std::size_t corner = all.starts[k].second;
     const Vec3 at = all.rings.arcs.items[k].from;
-    const double reach = narrow * rings[ring].width(corner);
+    const double reach = narrow * ring.width(corner);
     tree.visit([&](const curve_detail::Box3& box) { return square_from(box, at) < reach * reach; },
                [&](std::int32_t other) {
                  const Arc& arc = all.rings.arcs.items[static_cast<std::size_t>(other)];
@@ -173,7 +174,7 @@ void keep_necks(std::vector<FittedRing>& rings) {
                      domain_detail::square_from(arc, at) >= reach * reach)
                    return;
                  const auto [beside, start] = all.starts[static_cast<std::size_t>(other)];
-                 rings[ring].leave_coast(corner);
+                 ring.leave_coast(corner);
                  rings[beside].leave_coast(start);
                  rings[beside].leave_coast(rings[beside].next_corner(start));
                });

@@ -417,7 +417,11 @@ DoubleVector area_weights(const PointsRef& points, const Surface& surface,
   DoubleVector weights(points.cols());
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     const std::int32_t site = mesh.site_of_input[static_cast<std::size_t>(i)];
-    weights[i] = areas[site] / copies[static_cast<std::size_t>(site)];
+    // A rounded area may be negative, where the points' distances differ by many powers of ten.
+    weights[i] = std::max(0.0, areas[site]) / copies[static_cast<std::size_t>(site)];
+    if (!std::isfinite(areas[site]))
+      base_detail::refuse_at(i, "point {} has neighbours so near that their areas are no numbers; "
+                                "merge them (merge_within)");
   }
   return weights;
 }

@@ -199,7 +199,7 @@ Polygon fewest_corners(const S& space, const Voronoi& cells, std::int32_t cell,
 
 /// Leaves out the vertices that no cell has.
 void drop_unused_vertices(Voronoi& cells) {
-  std::vector<std::int32_t> id(static_cast<std::size_t>(cells.vertices.cols()), none);
+  std::vector<std::int32_t> id(static_cast<std::size_t>(cells.vertices.cols()), -1);
   for (const std::int32_t v : cells.vertices_on_cell.items)
     id[static_cast<std::size_t>(v)] = 0;
   std::int32_t count = 0;

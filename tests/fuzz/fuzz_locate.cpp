@@ -29,7 +29,7 @@ template <class Body> void holds(const Body& body) {
 
 /// The nearest sites of positions: of all sites the first ones, whatever the order of the
 /// positions.
-void search(const Mesh& mesh, const Points& positions) {
+void search(const Mesh& mesh, const Eigen::MatrixXd& positions) {
   const Locator locator(mesh);
   const std::int64_t n = mesh.points.cols();
   const IdLists all = locator.nearest_few(positions, n);
@@ -44,7 +44,7 @@ void search(const Mesh& mesh, const Points& positions) {
     std::ranges::sort(sorted);
     require(sorted == ids);
   }
-  const Points turned = positions.rowwise().reverse();
+  const Eigen::MatrixXd turned = positions.rowwise().reverse();
   for (const std::int64_t k : {1, 2, 3, 7}) {
     const IdLists few = locator.nearest_few(turned, k);
     for (std::int64_t i = 0; i < few.size(); ++i)
@@ -52,14 +52,15 @@ void search(const Mesh& mesh, const Points& positions) {
   }
 }
 
-void weigh(const Points& points, const Surface& surface, const AreaWeightOptions& options) {
+void weigh(const Eigen::MatrixXd& points, const Surface& surface,
+           const AreaWeightOptions& options) {
   const DoubleVector weights = area_weights(points, surface, options);
   require(weights.size() == points.cols() && weights.allFinite() && weights.minCoeff() >= 0);
   if (surface.is_sphere())
     require(weights.sum() < 4 * std::numbers::pi + 1e-9);
 }
 
-void refine(const Points& points) {
+void refine(const Eigen::MatrixXd& points) {
   const Multimesh made = multimesh(1, points);
   require(made.points().cols() == 4 * points.cols() - 6);
   require(made.parents.rightCols(made.points().cols() - points.cols()).maxCoeff() < points.cols());

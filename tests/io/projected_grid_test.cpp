@@ -414,6 +414,10 @@ TEST_CASE("cells of two-dimensional coordinates close round the sphere and do no
     return std::pair(usual(j, i).first, j == 1 && i == 2 ? NAN : usual(j, i).second);
   });
   CHECK(has(refusal(), "nav_lon[1, 2] and nav_lat there are no longitude and latitude"));
+  write_curvilinear(path, 2, 2, [&](std::size_t, std::size_t i) {
+    return std::pair(i % 2 == 0 ? 0.0 : 180.0, 0.0);
+  });
+  CHECK(has(refusal(), "are opposite each other; give a raster of narrower cells"));
   write_curvilinear(path, 1, 4, usual);
   CHECK(has(refusal(), "give two rows and columns or more"));
 }

@@ -238,4 +238,10 @@ TEST_CASE("options of weights are checked") {
         area_weights(Points2::Random(2, 40), Surface::periodic({2, 0}), {.edge = EdgeCells::hull});
       }).what(),
       "a channel has two boundaries"));
+  Points2 near(2, 3);
+  near << 0, 1e-160, 6e-316, 0, -0.004, 0;
+  CHECK(has(error_of([&] {
+              area_weights(near, Surface::plane(), {.edge = EdgeCells::reach, .reach = 0.3});
+            }).what(),
+            "has neighbours so near that their areas are no numbers"));
 }

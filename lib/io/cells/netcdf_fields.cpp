@@ -166,7 +166,7 @@ std::optional<std::vector<std::size_t>> find_dimensions(const std::vector<std::s
                                                         const std::vector<std::string>& wanted) {
   std::vector<std::size_t> of_location;
   for (const std::string& dimension : wanted) {
-    if (std::count(all.begin(), all.end(), dimension) != 1)
+    if (std::ranges::count(all, dimension) != 1 || std::ranges::count(wanted, dimension) != 1)
       return std::nullopt;
     of_location.push_back(
         static_cast<std::size_t>(std::find(all.begin(), all.end(), dimension) - all.begin()));

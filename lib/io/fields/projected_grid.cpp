@@ -4,6 +4,7 @@
 #include "base/lonlat.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "io/bytes/file_error.h"
 #include "io/cells/netcdf_fields.h"
 #include "io/netcdf/cf_values.h"
 
@@ -190,18 +191,23 @@ Centres read_centres(const NetcdfReader& file, const RasterAxes& axes) {
   return centres;
 }
 
-Points3 corners_between(const Centres& centres) {
+Points3 corners_between(const NetcdfReader& file, const Centres& centres) {
   const std::int64_t wide = centres.columns + 1;
   Points3 corners(3, wide * (centres.rows + 1));
-  base_detail::for_each_block(corners.cols(),
-                              [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-                                for (std::int64_t k = begin; k != end; ++k) {
-                                  const std::int64_t j = k / wide, i = k % wide;
-                                  const Vec3 sum = centres.at(j - 1, i - 1) + centres.at(j - 1, i) +
-                                                   centres.at(j, i - 1) + centres.at(j, i);
-                                  base_detail::set_column(corners, k, (1 / norm(sum)) * sum);
-                                }
-                              });
+  base_detail::for_each_block(corners.cols(), [&](std::int64_t, std::int64_t begin,
+                                                  std::int64_t end) {
+    for (std::int64_t k = begin; k != end; ++k) {
+      const std::int64_t j = k / wide, i = k % wide;
+      const Vec3 sum =
+          centres.at(j - 1, i - 1) + centres.at(j - 1, i) + centres.at(j, i - 1) + centres.at(j, i);
+      base_detail::set_column(corners, k, norm(sum) > 1e-9 ? (1 / norm(sum)) * sum : Vec3{0, 0, 0});
+    }
+  });
+  for (std::int64_t k = 0; k < corners.cols(); ++k)
+    if (corners.col(k).isZero(0))
+      file.fail("the cells beside row {} and column {} are opposite each other; give a raster of "
+                "narrower cells",
+                k / wide, k % wide);
   return corners;
 }
 
@@ -254,6 +260,7 @@ std::optional<RasterAxes> curvilinear_axes(const NetcdfReader& file) {
     RasterAxes axes;
     for (std::string name; words >> name;)
       if (file.has_variable(name) && file.dimensions_of(name).size() == 2 &&
+          file.dimensions_of(name)[0] != file.dimensions_of(name)[1] &&
           !file.has_variable(file.text(name, "bounds"))) {
         if (is_longitude(file, name))
           axes.longitude = name;
@@ -270,7 +277,7 @@ std::optional<RasterAxes> curvilinear_axes(const NetcdfReader& file) {
 FieldGrid read_curvilinear_grid(const NetcdfReader& file, const RasterAxes& axes,
                                 FieldChoice choice, const std::vector<FieldIndex>& choices) {
   const Centres centres = read_centres(file, axes);
-  FieldGrid grid = grid_of(file, corners_between(centres), centres.columns, centres.rows);
+  FieldGrid grid = grid_of(file, corners_between(file, centres), centres.columns, centres.rows);
   read_fields_on(file,
                  {.dimensions = file.dimensions_of(axes.longitude),
                   .no_fields = {axes.longitude, axes.latitude},

@@ -79,7 +79,7 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<MeshField>& fi
       return same_positions(fields[group.front()], fields[k]);
     });
     if (found == groups.end())
-      groups.push_back({{k}});
+      groups.push_back({k});
     else
       found->push_back(k);
   }
