@@ -29,7 +29,7 @@ std::string lower(std::string_view text) {
 
 /// What to write in place of a text that is no number.
 std::string remedy(std::string_view text, bool optional) {
-  if (text.find(',') != std::string_view::npos)
+  if (text.find(',') != text.npos && text.find_first_not_of("0123456789+-,.eE ") == text.npos)
     return "write numbers with decimal points";
   return optional ? "write a number, or NaN where there is none" : "write a number";
 }
