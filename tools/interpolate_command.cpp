@@ -164,9 +164,27 @@ std::vector<MeshField> chosen_fields(const InterpolateRequest& request, FieldGri
   if (request.fields.empty())
     return std::move(source.fields);
   std::vector<MeshField> chosen;
-  for (const std::string& name : request.fields)
+  for (const std::string& name : request.fields) {
+    if (std::ranges::find(chosen, name, &MeshField::name) != chosen.end())
+      refuse(message("--fields names {} twice; name it once", name));
     chosen.push_back(field_named(name, source));
+  }
   return chosen;
+}
+
+/// Requires the fields of --categories and --numbers to be among those that are taken.
+void require_taken(const InterpolateRequest& request, const std::vector<MeshField>& fields) {
+  const auto require_each = [&](const char* option, const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+      if (std::ranges::find(fields, name, &MeshField::name) == fields.end()) {
+        const std::string nearest = nearest_name(name, field_names(fields));
+        refuse(
+            message("{}: no field {} is taken{}", option, name,
+                    nearest.empty() ? "; leave it out" : message("; did you mean {}?", nearest)));
+      }
+  };
+  require_each("--categories", request.categories);
+  require_each("--numbers", request.numbers);
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -393,6 +411,7 @@ void run(const InterpolateRequest& request) {
     std::vector<MeshField> fields;
     if (!request.output.empty() && !request.scattered())
       fields = chosen_fields(request, source);
+    require_taken(request, fields);
     for (MeshField& field : fields)
       lines += decide_categories(request, field);
     progress.stage("reading " + request.target);

@@ -168,7 +168,8 @@ ScatteredFields interpolate_scattered(const FieldGrid& source, const FieldGrid& 
 /// larger than memory: a part has some of its rows. Any other file is one part.
 class FieldParts {
 public:
-  /// \param choices as for read_field_grid(). \param most about as many cells are in a part.
+  /// \param choices as for read_field_grid(). \param most about as many cells are in a part,
+  ///        less where cells have many numbers.
   /// \throws Error as read_field_grid().
   explicit FieldParts(const std::string& path, const std::vector<FieldIndex>& choices = {},
                       std::int64_t most = std::int64_t{1} << 20);
@@ -194,8 +195,8 @@ struct CoveredFields {
 
 /// Takes fields from a file that is read in parts to the cells of a target: what interpolate()
 /// gives with conservative weights, up to the rounding of the sums. The result has the same bits
-/// for any number of threads. \param fields those that are taken, such as FieldParts::read(0) has
-/// them: their names, and
+/// for any number of threads.
+/// \param fields those that are taken, such as FieldParts::read(0) has them: their names, and
 ///        whether they are categories; not their values.
 /// \throws Error as FieldParts::read() and interpolation_weights(); parse for a field of categories
 ///         of which a part holds no 32-bit integers.

@@ -489,9 +489,8 @@ TEST_CASE("units of widths: km and m by symbol and name, and no other") {
   for (const std::string unit : {"degrees", "radians", "furlongs", "degree", "rad", "1", "M", "KM",
                                  "Km", "mm", "mile", "km2", "km/h", "kmm", "deg"}) {
     CAPTURE(unit);
-    CHECK_THROWS_WITH_AS(
-        kilometres_in(unit),
-        ("the unit \"" + unit + "\" is no length; give km or m").c_str(), Error);
+    CHECK_THROWS_WITH_AS(kilometres_in(unit),
+                         ("the unit \"" + unit + "\" is no length; give km or m").c_str(), Error);
   }
   const InputFolder folder;
   const Raster width = sampled_field(smooth, 24, 12);

@@ -128,14 +128,21 @@ TEST_CASE("a header tells which columns are read, wherever they stand") {
   };
   CHECK(refusal("lat,lon\n47.4\n").find("text line 2: 1 column only") == 0);
   CHECK(has(refusal("lat,name,lon\n47.4,b,c\n"), "\"c\" is not a number"));
+  CHECK(has(refusal("lat,lon\n10.5 S,20 W\n"), "is not a number"));
+  CHECK(has(refusal("lon;lat\n10 30;45 15\n"), "\"10 30\" is not a number"));
+  CHECK(has(refusal("lon\tlat\tdepth\n10\t\t5\n"), "empty"));
+  CHECK(has(refusal("\"10\",\"20\"\n30,20\n"), "is not a number"));
   for (const std::string text : {"lon,lat,v\n1,2,3\n", "station,lon,lat\n5,1,2\n", "x y v\n1 2 3\n",
                                  "# lon,lat,v\n# of a day\n1,2,3\n"})
     CHECK(
         has(message_of([&] { read(text, Columns::xyz); }),
             "the header names no x, y and z; write these, or read them as longitude and latitude"));
   const Points3 known = read("8.5 47.4\n", Columns::lonlat);
-  for (const std::string text : {"# lat lon\n# of a day\n47.4 8.5\n", "lat,lon,1990\n47.4,8.5,3\n",
-                                 "name,lat,lon\n\"A, b #1\",47.4,8.5\n"})
+  for (const std::string text :
+       {"# lat lon\n# of a day\n47.4 8.5\n", "lat,lon,1990\n47.4,8.5,3\n",
+        "name,lat,lon\n\"A, b #1\",47.4,8.5\n", "lon_err,lat_sd,latitude,longitude\n1,2,47.4,8.5\n",
+        "lon lat\n8.5, 47.4\n", "\"A \"\"b #1\"\" c\";lat;lon\n\"A \"\"b #1\"\" c\";47.4;8.5\n",
+        "name,lat,lon\n5\" pipe,47.4,8.5\n"})
     CHECK(read(text, Columns::lonlat) == known);
   for (const char* const text : {"10,5;50,2\n", "10,5 50,2\n", "10,5\t50,2\n", "10,5 50,2 3,7\n"})
     CHECK(refusal(text) ==

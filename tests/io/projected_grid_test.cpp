@@ -236,6 +236,14 @@ TEST_CASE("cells of a projection keep integrals, in any order of their axes") {
   const ProjectedRaster usual;
   const double expected = integral_of(usual);
   CHECK(std::abs(integral_of({.x_first = true}) / expected - 1) < 1e-14);
+  Numbers shifted = greenland;
+  shifted.insert(shifted.end(), {{"false_easting", {500}}, {"false_northing", {-200}}});
+  CHECK(std::abs(integral_of({.numbers = shifted,
+                              .x = {200, 400, 600, 800},
+                              .y = {-1100, -1200, -1300},
+                              .unit = "km"}) /
+                     expected -
+                 1) < 1e-12);
   CHECK(
       std::abs(integral_of({.x = {-300, -100, 100, 300}, .y = {-900, -1000, -1100}, .unit = "km"}) /
                    expected -
@@ -275,7 +283,7 @@ TEST_CASE("a raster that is read in parts gives what it gives as a whole") {
       CHECK(FieldParts(path).count() == 1);
       CHECK(FieldParts(path, {}, 1).count() == 17);
       const FieldParts parts(path, {}, 100);
-      CHECK(parts.count() == 5);
+      CHECK(parts.count() == 6); // of 3 rows: a cell has 4 numbers
       std::int64_t cells = 0;
       for (std::int64_t k = 0; k < parts.count(); ++k) {
         const FieldGrid part = parts.read(k, {{"mask"}});
@@ -317,7 +325,7 @@ TEST_CASE("a raster that is read in parts gives what it gives as a whole") {
               FieldParts(path, {{"depth", 1}}, 100).read(0);
             }).what(),
             "no field has a dimension depth"));
-  CHECK(has(error_of([&] { at.read(5); }).what(), "there is no part 5; give 0 to 4"));
+  CHECK(has(error_of([&] { at.read(6); }).what(), "there is no part 6; give 0 to 5"));
   CHECK(has(error_of([&] { interpolate_parts(at, {MeshField{.name = "u"}}, mesh); }).what(),
             "has no field u at cells"));
 }
@@ -337,12 +345,28 @@ TEST_CASE("grid mappings that cannot be read are named") {
   CHECK(has(refusal({.x = {0, 1, 1}}), "x[2] does not ascend or descend"));
   CHECK(has(refusal({.x = {0, NAN, 1}}), "x[1] does not"));
   CHECK(has(refusal({.x = {5}}), "x has 1 values; give two nodes or more"));
-  CHECK(has(refusal({.unit = "degrees"}), "a.nc: x: the unit \"degrees\" is no length"));
+  CHECK(has(refusal({.unit = "degrees"}), "a.nc: x has the unit degrees, which is no length"));
   CHECK(has(refusal({.mapping = "lambert_azimuthal_equal_area",
                      .numbers = {{"longitude_of_projection_origin", {0}},
                                  {"latitude_of_projection_origin", {90}}},
                      .x = {-2e7, 2e7}}),
             "outside of what the projection shows"));
+  CHECK(has(refusal({.mapping = "lambert_conformal_conic",
+                     .numbers = {{"standard_parallel", {50}},
+                                 {"longitude_of_central_meridian", {0}},
+                                 {"latitude_of_projection_origin", {50}}},
+                     .y = {5e6, 6e6, 7e6}}),
+            "outside of what the projection shows"));
+  CHECK(has(refusal({.mapping = "rotated_latitude_longitude",
+                     .numbers = {{"grid_north_pole_latitude", {39.25}},
+                                 {"grid_north_pole_longitude", {-162}}},
+                     .x = {0, 120, 240, 360},
+                     .y = {0, 1, 2},
+                     .unit = "degrees"}),
+            "x goes round more than once, by 480 degrees"));
+  ProjectedRaster().write(path);
+  add_coordinates(path, 4, 3); // no fields of a mapping that is read
+  CHECK(read_field_grid(path).fields.size() == 1);
   CHECK(has(refusal({.mapping = "transverse_mercator"}), "gdalwarp"));
   add_coordinates(path, 4, 3); // which serve then
   const FieldGrid grid = read_field_grid(path);
@@ -402,6 +426,14 @@ TEST_CASE("cells of two-dimensional coordinates close round the sphere and do no
   };
   write_curvilinear(path, 18, 36, usual);
   CHECK(std::abs(area_of() / (4 * std::numbers::pi) - 1) < 1e-3); // open at the poles by rounding
+  write_curvilinear(path, 19, 36, [&](std::size_t j, std::size_t i) { // nodes at both poles
+    return std::pair(10.0 * static_cast<double>(i), -90 + 10.0 * static_cast<double>(j));
+  });
+  CHECK(std::abs(area_of() / (4 * std::numbers::pi) - 1) < 1e-12);
+  write_curvilinear(path, 18, 36, [&](std::size_t j, std::size_t i) { // half a step is too long
+    return std::pair(10.0 * static_cast<double>(i), -89 + 178.0 / 17 * static_cast<double>(j));
+  });
+  CHECK(std::abs(area_of() / (4 * std::numbers::pi) - 1) < 1e-12);
   write_curvilinear(path, 9, 20, [&](std::size_t j, std::size_t i) { return usual(13 - j, i); });
   const double sines =
       std::sin(std::numbers::pi / 180 * 50) - std::sin(-std::numbers::pi / 180 * 40);

@@ -415,6 +415,11 @@ TEST_CASE("positions: bad rows name their line and the remedy") {
   CHECK(refusal("1 10.5 50 2\n2 11 51 3\n3 12 49 4\n").find("the first column counts the lines") !=
         std::string::npos);
   CHECK(refusal("1\n2\n").find("1 column only") != std::string::npos);
+  CHECK(read("# lon and lat here\n20 9 40 3\n30 1 2 3\n").fields[0].name == "column3");
+  CHECK(refusal("lon;lat;v\n10,5;20,5;3\n").find("decimal points") != std::string::npos);
+  CHECK(
+      refusal("lon,lat,v,v\n1,2,3,4\n", {.fields = {{"v"}}}).find("two columns have the name v") !=
+      std::string::npos);
 }
 
 TEST_CASE("positions: text and NetCDF of fields read back") {

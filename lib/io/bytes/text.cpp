@@ -245,17 +245,35 @@ void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t p
   }
 }
 
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+std::size_t end_of_quoted(std::string_view line, std::size_t begin) {
+  if (begin >= line.size() || line[begin] != '"')
+    return begin;
+  for (std::size_t end = begin + 1; end < line.size(); ++end)
+    if (line[end] == '"' && line.substr(end + 1, 1) != "\"")
+      return end + 1;
+    else if (line[end] == '"')
+      ++end;
+  return line.size();
+}
+
 std::string_view without_comment(std::string_view line) {
   const std::size_t mark = line.find('#');
   if (mark == line.npos || line.substr(0, mark).find('"') == line.npos)
     return line.substr(0, mark);
-  bool begins = true, quoted = false; // a column
+  bool begins = true; // a column
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && (begins || quoted))
-      quoted = !quoted;
-    else if (line[i] == '#' && !quoted)
+    if (begins)
+      i = end_of_quoted(line, i);
+    if (i < line.size() && line[i] == '#')
       return line.substr(0, i);
-    begins = is_blank(line[i]) || is_mark(line[i]);
+    begins = i < line.size() && (is_blank(line[i]) || is_mark(line[i]));
   }
   return line;
 }
@@ -265,7 +283,9 @@ bool has_number(std::string_view line) {
   for (const char* p = line.data(); p != end;) {
     const char* const stop = column_end(p, end);
     double value;
-    const std::string_view column(p, static_cast<std::size_t>(stop - p));
+    std::string_view column(p, static_cast<std::size_t>(stop - p));
+    if (column.size() > 2 && column.front() == '"' && column.back() == '"')
+      column = column.substr(1, column.size() - 2);
     if (parse_columns(column, 1, &value).outcome == Outcome::ok)
       return true;
     p = stop == end ? end : stop + 1;

@@ -107,6 +107,13 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text);
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
                std::vector<std::int32_t>& faces, std::int64_t first = 0, std::int64_t count = 3);
 
+/// A text with its ASCII letters in lower case.
+std::string lower(std::string_view text);
+
+/// The end of the quoted text that starts at an index, behind its closing quote, or of the line
+/// where that lacks; the index itself if no quote stands there. Two quotes within stand for one.
+std::size_t end_of_quoted(std::string_view line, std::size_t begin);
+
 /// A line before its comment, which a `#` starts that is not in quotes. Quotes start with a column.
 std::string_view without_comment(std::string_view line);
 

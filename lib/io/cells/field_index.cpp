@@ -3,6 +3,7 @@
 
 #include "base/message.h"
 #include "base/require.h"
+#include "io/bytes/text.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,13 +13,6 @@ namespace io_detail {
 namespace {
 
 using base_detail::message, base_detail::refuse, base_detail::require;
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) {
-    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
 
 /// The dimension that a choice belongs to; the end of the dimensions for none.
 std::size_t find_dimension(const std::vector<FieldDimension>& dimensions,

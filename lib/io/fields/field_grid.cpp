@@ -258,22 +258,6 @@ void apply_mask(FieldGrid& grid) {
         field.values.segment(i * field.count(), field.count()).setConstant(none);
 }
 
-/// Requires a field without a dimension of size 0, such as times without records.
-/// \throws Error parse, with the name of the dimension.
-void require_records(const std::string& path, const FieldGrid& grid, FieldChoice choice) {
-  if (choice == FieldChoice::none || !grid.fields.empty() || !is_netcdf_file(path))
-    return;
-  const NetcdfReader file(path);
-  for (const std::string& name : grid.ignored)
-    if (file.has_variable(name))
-      for (const std::string& dimension : file.dimensions_of(name))
-        if (file.dimension(dimension) == 0)
-          file.fail(
-              "its dimension {} has the size 0, so that {} holds no numbers; give a file with "
-              "records",
-              dimension, name);
-}
-
 bool counts(const FieldGrid& grid, Eigen::Index cell) {
   return grid.mask.size() == 0 || grid.mask[cell] != 0;
 }
@@ -307,6 +291,21 @@ void leave_masked_out(const FieldGrid& source, const FieldGrid& target, GridWeig
 }
 
 } // namespace
+
+void require_records(const std::string& path, const FieldGrid& grid, FieldChoice choice) {
+  if (choice == FieldChoice::none || !grid.fields.empty() || !is_netcdf_file(path))
+    return;
+  const NetcdfReader file(path);
+  for (const std::string& name : grid.ignored)
+    if (file.has_variable(name))
+      for (const std::string& dimension : file.dimensions_of(name))
+        if (file.dimension(dimension) == 0)
+          file.fail(
+              "its dimension {} has the size 0, so that {} holds no numbers; give a file with "
+              "records",
+              dimension, name);
+}
+
 } // namespace io_detail
 
 std::int64_t FieldGrid::size() const {

@@ -3,6 +3,7 @@
 #include "base/require.h"
 #include "io/bytes/file_error.h"
 #include "io/command.h"
+#include "io/fields/centres.h"
 #include "io/fields/projected_grid.h"
 #include "io/netcdf/cf_axes.h"
 #include "io/netcdf/netcdf_reader.h"
@@ -40,6 +41,21 @@ std::vector<MeshField> in_order(std::vector<MeshField> part, const std::vector<M
   return out;
 }
 
+/// The numbers that a raster's variables have for a cell.
+std::int64_t numbers_of_cell(const NetcdfReader& file, const ProjectedAxes& axes) {
+  std::int64_t numbers = 0;
+  for (const std::string& name : file.variable_names()) {
+    const std::vector<std::string> dimensions = file.dimensions_of(name);
+    if (std::ranges::count(dimensions, axes.x) != 1 || std::ranges::count(dimensions, axes.y) != 1)
+      continue;
+    std::int64_t of_name = 1;
+    for (const std::string& dimension : dimensions)
+      of_name *= dimension == axes.x || dimension == axes.y ? 1 : file.dimension(dimension);
+    numbers += of_name;
+  }
+  return numbers;
+}
+
 } // namespace
 } // namespace io_detail
 
@@ -70,7 +86,9 @@ FieldParts::FieldParts(const std::string& path, const std::vector<FieldIndex>& c
       if (const std::optional<ProjectedAxes> axes = projected_axes(reader)) {
         file->raster = std::make_unique<File::Raster>(path, *axes);
         const ProjectedRaster& raster = file->raster->raster;
-        const std::int64_t rows = std::max<std::int64_t>(most / raster.columns(), 1);
+        constexpr std::int64_t polygon = 32; // numbers that the search of a cell takes
+        const std::int64_t cells = most * polygon / (polygon + numbers_of_cell(reader, *axes)),
+                           rows = std::max<std::int64_t>(cells / raster.columns(), 1);
         file->parts = (raster.rows() + rows - 1) / rows;
       }
   }
@@ -94,7 +112,10 @@ FieldGrid FieldParts::read(std::int64_t part,
   const ProjectedRaster& raster = file_->raster->raster;
   const std::int64_t first = raster.rows() * part / count(),
                      last = raster.rows() * (part + 1) / count();
-  return raster.read(first, last - first, FieldChoice::all, file_->choices, names);
+  FieldGrid grid = raster.read(first, last - first, FieldChoice::all, file_->choices, names);
+  if (!names)
+    require_records(file_->path, grid, FieldChoice::all);
+  return grid;
 }
 
 CoveredFields interpolate_parts(const FieldParts& source, const std::vector<MeshField>& fields,

@@ -6,6 +6,7 @@
 #include "base/points.h"
 #include "io/bytes/file_error.h"
 #include "io/cells/netcdf_fields.h"
+#include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
 
 #include <calotte/read.h>
@@ -45,7 +46,15 @@ std::string find_axis(const NetcdfReader& file, const std::vector<std::string>& 
   return found == dimensions.end() ? "" : *found;
 }
 
-/// The sides of the boxes of nodes, in the unit of the projection.
+/// The metres in the unit of an axis; 1 for degrees.
+double metres_of(const NetcdfReader& file, const std::string& axis) {
+  const std::string unit = file.text(axis, "units");
+  if (unit.empty() || unit.starts_with("deg"))
+    return 1;
+  return 1000 * named(file.path() + ": " + axis, [&] { return kilometres_in(unit); });
+}
+
+/// The sides of the boxes of nodes, in metres or degrees.
 std::vector<double> read_sides(const NetcdfReader& file, const std::string& axis,
                                const Projection& projection) {
   std::vector<double> nodes = cf_values(file, axis, {-1});
@@ -53,12 +62,10 @@ std::vector<double> read_sides(const NetcdfReader& file, const std::string& axis
   if (n < 2)
     file.fail("{} has {} values; give two nodes or more", axis, n);
   const std::string unit = file.text(axis, "units");
-  if (!projection.of_degrees() && !unit.empty()) {
-    const double metres =
-        1000 * named(file.path() + ": " + axis, [&] { return kilometres_in(unit); });
-    for (double& node : nodes)
-      node *= metres;
-  }
+  if (!projection.of_degrees() && unit.starts_with("deg"))
+    file.fail("{} has the unit {}, which is no length; give m or km", axis, unit);
+  if (!projection.of_degrees())
+    scale(nodes, metres_of(file, axis));
   for (std::size_t i = 0; i < n; ++i)
     if (!std::isfinite(nodes[i]) ||
         (i > 1 && !((nodes[i] - nodes[i - 1]) * (nodes[1] - nodes[0]) > 0)) ||
@@ -154,11 +161,12 @@ struct Centres {
     return 2.0 * inside(j, i < 0 ? 0 : columns - 1) - inside(j, i < 0 ? 1 : columns - 2);
   }
   /// The largest distance of two columns, over that of the first two in the same row.
+  /// Rows at a pole do not count.
   double apart(std::int64_t a, std::int64_t b) const {
     double largest = 0;
     for (std::int64_t j = 0; j < rows; ++j)
-      largest = std::max(largest, norm(inside(j, a) - inside(j, b)) /
-                                      std::max(norm(inside(j, 1) - inside(j, 0)), 1e-300));
+      if (const double step = norm(inside(j, 1) - inside(j, 0)); step > 1e-12)
+        largest = std::max(largest, norm(inside(j, a) - inside(j, b)) / step);
     return largest;
   }
 };
@@ -191,6 +199,29 @@ Centres read_centres(const NetcdfReader& file, const RasterAxes& axes) {
   return centres;
 }
 
+/// Moves the corners of the first or the last row to a pole if all are beyond it, as those half a
+/// step from rows of latitudes may be.
+void end_at_pole(const Centres& centres, bool last, Points3& corners) {
+  const std::int64_t wide = centres.columns + 1, inner = last ? centres.rows - 2 : 1;
+  auto side = corners.middleCols(last ? centres.rows * wide : 0, wide);
+  for (std::int64_t i = 0; i < wide; ++i) {
+    const Vec3 beside = centres.at(inner, i - 1) + centres.at(inner, i);
+    if (beside.x * side(0, i) + beside.y * side(1, i) > 1e-12)
+      return;
+  }
+  for (std::int64_t i = 0; i < wide; ++i)
+    side.col(i) << 0, 0, std::copysign(1.0, side(2, i));
+}
+
+/// Refuses cells that cover some places twice, which their areas show where they cover the sphere.
+void require_no_overlap(const NetcdfReader& file, const Polygons& cells) {
+  const double spheres = areas(cells).sum() / (4 * std::numbers::pi);
+  if (spheres > 1 + 1e-6)
+    file.fail("its cells cover {} times the sphere; leave out the rows and columns that repeat, as "
+              "by ncks -d",
+              spheres);
+}
+
 Points3 corners_between(const NetcdfReader& file, const Centres& centres) {
   const std::int64_t wide = centres.columns + 1;
   Points3 corners(3, wide * (centres.rows + 1));
@@ -203,6 +234,9 @@ Points3 corners_between(const NetcdfReader& file, const Centres& centres) {
       base_detail::set_column(corners, k, norm(sum) > 1e-9 ? (1 / norm(sum)) * sum : Vec3{0, 0, 0});
     }
   });
+  if (centres.closed)
+    for (const bool last : {false, true})
+      end_at_pole(centres, last, corners);
   for (std::int64_t k = 0; k < corners.cols(); ++k)
     if (corners.col(k).isZero(0))
       file.fail("the cells beside row {} and column {} are opposite each other; give a raster of "
@@ -233,8 +267,12 @@ std::optional<ProjectedAxes> projected_axes(const NetcdfReader& file) {
 }
 
 ProjectedRaster::ProjectedRaster(const NetcdfReader& file, const ProjectedAxes& axes)
-    : file_(file), axes_(axes), projection_(file, axes.mapping),
-      x_(read_sides(file, axes.x, projection_)), y_(read_sides(file, axes.y, projection_)) {}
+    : file_(file), axes_(axes), projection_(file, axes.mapping, metres_of(file, axes.x)),
+      x_(read_sides(file, axes.x, projection_)), y_(read_sides(file, axes.y, projection_)) {
+  if (projection_.of_degrees() && std::abs(x_.back() - x_.front()) > 360 * (1 + 1e-9))
+    file.fail("{} goes round more than once, by {} degrees; leave out the columns that repeat",
+              axes.x, std::abs(x_.back() - x_.front()));
+}
 
 FieldGrid ProjectedRaster::read(std::int64_t first, std::int64_t count, FieldChoice choice,
                                 const std::vector<FieldIndex>& choices,
@@ -243,9 +281,13 @@ FieldGrid ProjectedRaster::read(std::int64_t first, std::int64_t count, FieldCho
   const auto y =
       std::span(y_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count) + 1);
   FieldGrid grid = grid_of(file_, corners_of(file_, projection_, x_, y), columns(), count);
+  std::set<std::string> no_fields{axes_.x, axes_.y, axes_.mapping};
+  for (const std::string& name : file_.variable_names())
+    if (is_longitude(file_, name) || is_latitude(file_, name))
+      no_fields.insert(name);
   read_fields_on(file_,
                  {.dimensions = {axes_.y, axes_.x},
-                  .no_fields = {axes_.x, axes_.y, axes_.mapping},
+                  .no_fields = no_fields,
                   .only = only,
                   .choice = choice,
                   .choices = choices,
@@ -278,6 +320,7 @@ FieldGrid read_curvilinear_grid(const NetcdfReader& file, const RasterAxes& axes
                                 FieldChoice choice, const std::vector<FieldIndex>& choices) {
   const Centres centres = read_centres(file, axes);
   FieldGrid grid = grid_of(file, corners_between(file, centres), centres.columns, centres.rows);
+  require_no_overlap(file, *grid.mesh.polygons);
   read_fields_on(file,
                  {.dimensions = file.dimensions_of(axes.longitude),
                   .no_fields = {axes.longitude, axes.latitude},

@@ -60,7 +60,7 @@ std::optional<RasterAxes> curvilinear_axes(const NetcdfReader& file);
 
 /// The cells around the centres that two-dimensional longitudes and latitudes give: a corner is the
 /// mean of the four centres around it; at a side of the raster the last step goes on, but columns
-/// that follow each other round the sphere are joined.
+/// that follow each other round the sphere are joined, and rows round a pole end there.
 /// \throws Error as read_field_grid().
 FieldGrid read_curvilinear_grid(const NetcdfReader& file, const RasterAxes& axes,
                                 FieldChoice choice, const std::vector<FieldIndex>& choices);

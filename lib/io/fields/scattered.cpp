@@ -121,7 +121,7 @@ Mesh triangulated(Distinct& distinct, const FieldGrid& source, const MeshField& 
       site = mesh.site_of_input[static_cast<std::size_t>(site)];
     return mesh;
   } catch (const Error& error) {
-    const bool few = error.code() == ErrorCode::too_few_sites;
+    const bool few = error.code() == ErrorCode::too_few_sites && distinct.points.cols() < 3;
     if (!few && error.code() != ErrorCode::degenerate)
       throw;
     const std::string rows = base_detail::counted(std::ssize(distinct.rows), "row");

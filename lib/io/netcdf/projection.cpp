@@ -185,6 +185,8 @@ struct LambertConformal : Projection::Inverse {
   LonLat lonlat(double x, double y) const override {
     const double sign = n > 0 ? 1 : -1, rho = sign * std::hypot(x, origin - y),
                  theta = std::atan2(sign * x, sign * (origin - y));
+    if (std::abs(theta) > std::abs(n) * pi) // in the gap between the sides of the cone
+      return {nan, nan};
     return in_degrees(meridian + theta / n, earth.latitude_of_t(std::pow(rho / scale, 1 / n)));
   }
 
@@ -284,7 +286,7 @@ const Mapping* find_mapping(const std::string& name) {
 
 bool Projection::reads(const std::string& name) { return find_mapping(name) != nullptr; }
 
-Projection::Projection(const NetcdfReader& file, const std::string& mapping) {
+Projection::Projection(const NetcdfReader& file, const std::string& mapping, double metres) {
   const std::string name = file.text(mapping, "grid_mapping_name");
   const Parameters of(file, mapping);
   of_degrees_ = name == rotated_pole;
@@ -295,8 +297,8 @@ Projection::Projection(const NetcdfReader& file, const std::string& mapping) {
               "file with GDAL: gdalwarp -t_srs EPSG:4326 -of netCDF",
               mapping, in_quotes(name));
   inverse_ = found->make(of);
-  const double east = of.find("false_easting").value_or(0),
-               north = of.find("false_northing").value_or(0);
+  const double east = metres * of.find("false_easting").value_or(0),
+               north = metres * of.find("false_northing").value_or(0);
   if (east != 0 || north != 0)
     inverse_ = std::make_shared<Shifted>(inverse_, east, north);
 }

@@ -17,9 +17,10 @@ class Projection {
 public:
   /// \param mapping a variable with the attribute grid_mapping_name: polar_stereographic,
   ///        lambert_azimuthal_equal_area, lambert_conformal_conic or rotated_latitude_longitude.
+  /// \param metres in the unit of the plane's axes, in which false_easting and false_northing are.
   /// \throws Error parse, naming the variable, for another mapping, and for parameters that are
   ///         missing or out of range.
-  Projection(const NetcdfReader& file, const std::string& mapping);
+  Projection(const NetcdfReader& file, const std::string& mapping, double metres = 1);
 
   /// Whether a grid_mapping_name is one of these.
   static bool reads(const std::string& name);

@@ -25,13 +25,6 @@ namespace {
 constexpr double earth_radius = 6371229; ///< metres, as in MPAS
 constexpr double degree = std::numbers::pi / 180;
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return result;
-}
-
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
   return begin == std::string_view::npos ? "" : text.substr(begin, end - begin + 1);

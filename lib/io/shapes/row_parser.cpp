@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <ranges>
 #include <string>
 
 namespace calotte::io_detail {
@@ -90,28 +91,26 @@ void require_finite(const LineReader& reader, const double* values, const LineFo
                   std::isnan(values[i]) ? "NaN" : "an infinite number", format.use);
 }
 
-Columned parse_named(std::string_view line, const PointHeader& header, int count, double* values) {
-  const std::vector<std::string_view> columns = split_columns(line, header.separator);
+Columned parse_named(std::string_view line, const PointHeader& header, int count, double* values,
+                     std::vector<std::string_view>& texts) {
+  split_columns(line, find_separator(line, header.separator), texts);
   for (int k = 0; k < count; ++k) {
     const std::size_t at = header.column[static_cast<std::size_t>(k)];
-    if (at >= columns.size())
-      return {Outcome::too_few, static_cast<int>(columns.size()), {}};
-    const Columned read = parse_columns(columns[at], 1, values + k);
-    if (read.outcome != Outcome::ok)
-      return {read.outcome == Outcome::too_few ? Outcome::no_number : read.outcome, k, columns[at]};
+    if (at >= texts.size())
+      return {Outcome::too_few, static_cast<int>(texts.size()), {}};
+    if (const Columned read = parse_number(texts[at], values[k]); read.outcome != Outcome::ok)
+      return {read.outcome, k, texts[at]};
   }
   return {};
 }
 
-/// The letters at the start of a name such as "Latitude [deg]", in lower case.
-std::string leading_letters(std::string_view name) {
-  std::string letters;
-  for (const char c : name)
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
-      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    else
-      break;
-  return letters;
+/// Whether a name is another one and a unit, such as lat_deg, "Latitude [deg]" and "x (km)".
+bool has_unit(std::string_view name, std::string_view of) {
+  if (!name.starts_with(of) || name.size() == of.size())
+    return false;
+  const std::string_view rest = name.substr(of.size());
+  return std::string_view(" [(/").find(rest[0]) != std::string_view::npos ||
+         rest.starts_with("_deg") || rest == "_m" || rest == "_km";
 }
 
 int commas_in(std::string_view text) {
@@ -145,24 +144,6 @@ bool has_decimal_commas(std::string_view line, int count,
 
 // ---- Headers
 
-namespace {
-
-/// The end of the quoted text with which a column starts, or its begin without one.
-std::size_t end_of_quoted(std::string_view line, std::size_t begin, char separator) {
-  const std::size_t open = separator == ' ' ? begin : line.find_first_not_of(' ', begin);
-  if (open >= line.size() || line[open] != '"')
-    return begin;
-  std::size_t end = open + 1;
-  for (; end < line.size(); ++end)
-    if (line[end] == '"' && line.substr(end + 1, 1) != "\"")
-      break;
-    else if (line[end] == '"')
-      ++end; // two stand for one within
-  return std::min(end, line.size());
-}
-
-} // namespace
-
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns) {
   constexpr std::string_view around = " \t\r\"'";
   columns.clear();
@@ -170,7 +151,10 @@ void split_columns(std::string_view line, char separator, std::vector<std::strin
     return separator == ' ' ? c == ' ' || c == '\t' : c == separator;
   };
   for (std::size_t begin = 0; begin <= line.size();) {
-    std::size_t end = end_of_quoted(line, begin, separator);
+    std::size_t end = begin;
+    while (separator != ' ' && end < line.size() && line[end] == ' ')
+      ++end;
+    end = end_of_quoted(line, end);
     while (end < line.size() && !is_end(line[end]))
       ++end;
     std::string_view column = line.substr(begin, end - begin);
@@ -191,13 +175,19 @@ std::vector<std::string_view> split_columns(std::string_view line, char separato
 }
 
 char find_separator(std::string_view line) {
-  bool quoted = false;
-  for (const char c : line) {
-    quoted ^= c == '"';
-    if (!quoted && (c == ',' || c == ';' || c == '|' || c == '\t'))
-      return c;
+  bool begins = true; // a column
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (begins)
+      i = end_of_quoted(line, i);
+    if (i < line.size() && std::string_view(",;|\t").find(line[i]) != std::string_view::npos)
+      return line[i];
+    begins = i < line.size() && line[i] == ' ';
   }
   return ' ';
+}
+
+char find_separator(std::string_view row, char of_header) {
+  return of_header != ' ' && row.find(of_header) != row.npos ? of_header : find_separator(row);
 }
 
 std::optional<PointHeader> parse_header(std::string_view line, Columns columns) {
@@ -211,18 +201,19 @@ std::optional<PointHeader> parse_header(std::string_view line, Columns columns) 
   header.separator = find_separator(line);
   std::vector<std::string> names;
   for (const std::string_view name : split_columns(line, header.separator))
-    names.push_back(leading_letters(name));
-  header.names = names.size();
-  header.wanted = wanted.size();
+    names.push_back(lower(name));
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     auto found = names.end();
     for (const std::string_view known : wanted[k]) // the first that there is
       if (found == names.end())
-        found = std::find(names.begin(), names.end(), known);
+        found = std::ranges::find(names, known);
+    for (const std::string_view known : wanted[k])
+      if (found == names.end())
+        found =
+            std::ranges::find_if(names, [&](const auto& name) { return has_unit(name, known); });
     if (found == names.end())
       return std::nullopt;
     header.column[k] = static_cast<std::size_t>(found - names.begin());
-    header.first = header.first && header.column[k] == k;
   }
   return header;
 }
@@ -235,7 +226,31 @@ bool names_other(std::string_view header, Columns columns) {
          parse_header(header, Columns::lonlat);
 }
 
+/// Whether the columns of the position are the first ones.
+bool is_first(const PointHeader& header, std::size_t count) {
+  return std::ranges::all_of(header.column | std::views::take(count),
+                             [&](std::size_t column) { return column < count; });
+}
+
 } // namespace
+
+bool may_be_header(std::string_view comment, Columns columns) {
+  return parse_header(comment, columns) || names_other(comment, columns);
+}
+
+const Comment* find_header(const std::vector<Comment>& comments, std::string_view row,
+                           Columns columns) {
+  const std::size_t count = split_columns(row, find_separator(row)).size();
+  for (std::size_t k = comments.size(); k-- > 0;) {
+    const std::string& text = comments[k].text;
+    const bool other = names_other(text, columns);
+    const std::optional<PointHeader> header = parse_header(text, other ? Columns::lonlat : columns);
+    if (header && split_columns(text, header->separator).size() == count &&
+        (header->separator != ' ' || is_first(*header, columns == Columns::xyz && !other ? 3 : 2)))
+      return &comments[k];
+  }
+  return nullptr;
+}
 
 // ---- Positions
 
@@ -295,8 +310,8 @@ void RowParser::parse(const LineReader& reader, std::string_view line, PointRows
   if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
     if (content.size() < line.size() && !has_points_ && !header_)
       if (const std::string_view comment = line.substr(content.size() + 1);
-          parse_header(comment, columns_) || names_other(comment, columns_))
-        comments_.emplace_back(comment);
+          may_be_header(comment, columns_))
+        comments_.push_back({std::string(comment), reader.number()});
     return;
   }
   if (!has_points_ && !header_)
@@ -304,29 +319,19 @@ void RowParser::parse(const LineReader& reader, std::string_view line, PointRows
   double values[3];
   if (has_decimal_commas(content, format_->columns, names_))
     reader.fail("commas separate columns; write numbers with decimal points");
-  const Columned read = names_ && !names_->first
-                            ? parse_named(content, *names_, format_->columns, values)
-                            : parse_columns(content, format_->columns, values);
+  const Columned read = names_ ? parse_named(content, *names_, format_->columns, values, texts_)
+                               : parse_columns(content, format_->columns, values);
   if (read.outcome == Outcome::ok)
     add(reader, content, values, rows);
   else
     take_header(reader, content, read);
 }
 
-/// Takes the names of the last comment before the first line that fits it: others may be sentences.
+/// Takes the names of a comment before the first line if one fits it.
 void RowParser::accept_comment(const LineReader& reader, std::string_view line) {
-  const char separator = find_separator(line);
-  const std::size_t count = split_columns(line, separator).size();
-  for (; !comments_.empty() && !names_; comments_.pop_back()) {
-    const std::string& comment = comments_.back();
-    const char between = find_separator(comment);
-    const std::size_t names = split_columns(comment, between).size();
-    const bool is_list = between != ' ' || names == static_cast<std::size_t>(format_->columns);
-    if (!is_list || names != count)
-      continue;
-    require_names(reader, comment);
-    names_ = parse_header(comment, columns_);
-    names_->separator = separator;
+  if (const Comment* const comment = find_header(comments_, line, columns_)) {
+    require_names(reader, comment->text);
+    names_ = parse_header(comment->text, columns_);
   }
   comments_.clear();
 }

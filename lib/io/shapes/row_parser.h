@@ -28,8 +28,6 @@ struct LineFormat;
 struct PointHeader {
   char separator = ' ';
   std::array<std::size_t, 3> column{};
-  bool first = true;                 ///< whether they are the first columns, in order
-  std::size_t names = 0, wanted = 0; ///< number of all columns, and of the coordinates
 };
 
 /// Splits a line into columns at a separator, or at a blank as separator at all blanks and tabs.
@@ -39,12 +37,28 @@ std::vector<std::string_view> split_columns(std::string_view line, char separato
 /// The same into memory that serves for many lines.
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns);
 
-/// Finds the separator of a line: comma, semicolon, bar or tab, else a blank. It may differ from
-/// that of the header.
+/// Finds the separator of a line: comma, semicolon, bar or tab, else a blank.
 char find_separator(std::string_view line);
+/// The same of a row: that of its header, if the row has it.
+char find_separator(std::string_view row, char of_header);
 
-/// Parses a header. Returns none unless it names the coordinates.
+/// Parses a header. Returns none unless it names the coordinates: by their names alone, or else
+/// with a unit, such as lat_deg, "Latitude [deg]" and "x (km)".
 std::optional<PointHeader> parse_header(std::string_view line, Columns columns);
+
+/// A comment before the rows, and the number of its line.
+struct Comment {
+  std::string text;
+  std::int64_t line;
+};
+
+/// The last comment that may be the header of a row: it names positions, and as many columns as the
+/// row has. Blanks may separate names if those of the position are the first, which they are in few
+/// sentences. Null without one.
+const Comment* find_header(const std::vector<Comment>& comments, std::string_view row,
+                           Columns columns);
+/// Whether a comment is worth keeping for that.
+bool may_be_header(std::string_view comment, Columns columns);
 
 /// Appends the point of a position, three numbers.
 /// \param values its coordinates as in the file.
@@ -112,9 +126,10 @@ private:
   Columns columns_;
   const LineFormat* format_;
   bool header_ = false, has_points_ = false;
-  std::vector<std::string> comments_; ///< that may be headers
+  std::vector<Comment> comments_; ///< that may be headers
   std::optional<PointHeader> names_;
   FirstColumn first_;
+  std::vector<std::string_view> texts_; ///< columns of the current line
 };
 
 } // namespace calotte::io_detail

@@ -20,13 +20,6 @@ using base_detail::counted, base_detail::listed, base_detail::message;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
 /// What to write in place of a text that is no number.
 std::string remedy(std::string_view text, bool optional) {
   if (text.find(',') != text.npos && text.find_first_not_of("0123456789+-,.eE ") == text.npos)
@@ -63,8 +56,8 @@ void ValueParser::parse(const LineReader& reader, std::string_view line, ValueRo
   if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
     if (content.size() < line.size() && !has_points())
       if (const std::string_view comment = line.substr(content.size() + 1);
-          parse_header(comment, kind()))
-        comments_.emplace_back(comment, reader.number());
+          may_be_header(comment, kind()))
+        comments_.push_back({std::string(comment), reader.number()});
     return;
   }
   if (!has_points() && header_.empty() && (!has_number(content) || parse_header(content, kind()))) {
@@ -92,13 +85,12 @@ void ValueParser::parse(const LineReader& reader, std::string_view line, ValueRo
 /// Chooses the columns by the header and the first row.
 void ValueParser::begin(const LineReader& reader, std::string_view line) {
   first_line_ = reader.number();
-  columns_.separator = find_separator(line);
+  if (header_.empty())
+    if (const Comment* const comment = find_header(comments_, line, kind()))
+      header_ = comment->text, header_line_ = comment->line;
+  columns_.separator = find_separator(line, header_.empty() ? ' ' : find_separator(header_));
   split_columns(line, columns_.separator, texts_);
   columns_.count = texts_.size();
-  if (header_.empty())
-    for (const auto& [comment, line_number] : comments_) // the last that fits: it is no sentence
-      if (split_columns(comment, find_separator(comment)).size() == columns_.count)
-        header_ = comment, header_line_ = line_number;
   if (!header_.empty())
     for (const std::string_view name : split_columns(header_, find_separator(header_)))
       names_.emplace_back(name);
@@ -167,9 +159,11 @@ std::string ValueParser::name_of(std::size_t column) const {
 
 /// The column of a name, in any case where no other fits, or of a number from 1 on.
 std::size_t ValueParser::find(const LineReader& reader, const std::string& column) const {
-  for (std::size_t k = 0; k < names_.size(); ++k)
-    if (names_[k] == column)
-      return k;
+  if (const auto named = std::ranges::count(names_, column); named > 1)
+    fail_at(reader.name(), std::max<std::int64_t>(header_line_, 1),
+            "two columns have the name {}; choose by number (--fields)", column);
+  else if (named == 1)
+    return static_cast<std::size_t>(std::ranges::find(names_, column) - names_.begin());
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < names_.size(); ++k)
     if (lower(names_[k]) == lower(column))

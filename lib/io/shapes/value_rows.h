@@ -72,9 +72,9 @@ private:
   ValueColumns columns_;
   std::string header_; ///< the line before the first row
   std::int64_t header_line_ = 0;
-  std::vector<std::pair<std::string, std::int64_t>> comments_; ///< that may be it, and their lines
-  std::vector<std::string> names_;                             ///< of all columns, by the header
-  std::int64_t first_line_ = 0;                                ///< number of the first row's line
+  std::vector<Comment> comments_;  ///< that may be it
+  std::vector<std::string> names_; ///< of all columns, by the header
+  std::int64_t first_line_ = 0;    ///< number of the first row's line
   FirstColumn first_;
   std::vector<std::string_view> texts_; ///< columns of the current line
 };
