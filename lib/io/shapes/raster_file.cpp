@@ -340,8 +340,7 @@ double kilometres_in(const std::string& unit) {
     return 1;
   if (std::ranges::find(io_detail::metres, name) != io_detail::metres.end())
     return 0.001;
-  base_detail::refuse(
-      base_detail::message("the unit \"{}\" is no length; give km or m", unit));
+  base_detail::refuse(base_detail::message("the unit \"{}\" is no length; give km or m", unit));
 }
 
 Raster read_raster(const std::string& path, const RasterChoice& choice) {
