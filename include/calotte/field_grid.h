@@ -187,10 +187,10 @@ private:
   std::shared_ptr<const File> file_;
 };
 
-/// Fields at a target, and of each of its cells' areas, what the source covers.
+/// Fields at a target.
 struct CoveredFields {
-  std::vector<MeshField> fields;
-  DoubleVector target_fraction;
+  std::vector<MeshField> fields; ///< in the order in which they were asked for
+  DoubleVector target_fraction;  ///< of each cell's area, what the source covers
 };
 
 /// Takes fields from a file that is read in parts to the cells of a target: what interpolate()
