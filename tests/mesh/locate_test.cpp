@@ -246,14 +246,13 @@ TEST_CASE("more sites are equally near than are asked for: the walk may begin at
 }
 
 TEST_CASE("a walk does not reach all sites: two closed parts, and a site without triangles") {
-  Mesh two = delaunay(Points3(Points3::Identity(3, 3).replicate(1, 2) *
-                              Eigen::Matrix<double, 6, 1>(1, 1, 1, -1, -1, -1).asDiagonal()));
+  Points3 octahedron(3, 6);
+  octahedron << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1;
+  Mesh two = delaunay(octahedron);
   const Eigen::Index sites = two.points.cols(), triangles = two.triangles.cols();
   two.points.conservativeResize(3, 2 * sites + 1);
   two.points.middleCols(sites, sites) =
-      (Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()) *
-       two.points.leftCols(sites).eval())
-          .eval();
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix() * octahedron;
   two.points.rightCols(1) << 0.6, 0.8, 0;
   two.triangles.conservativeResize(3, 2 * triangles);
   two.triangles.rightCols(triangles) =
