@@ -68,9 +68,10 @@ public:
   void for_each_within(const Position& p, double distance, const Body& body) const {
     const double chord = S::on_sphere ? 2 * std::sin(distance / 2) : distance,
                  square = chord * chord, limit = beyond(p, square);
+    const Vec3 seen = seen_.seen(p);
     std::vector<std::int32_t> found; // where a box has copies
     for_each_near(p, limit, [&](std::int32_t site) {
-      if (square_of(p, site) > square || std::ranges::find(found, site) != found.end())
+      if (square_of(p, seen, site) > square || std::ranges::find(found, site) != found.end())
         return;
       if (S::copies > 1)
         found.push_back(site);
@@ -169,14 +170,15 @@ private:
     return reach * reach;
   }
 
-  double square_of(const Position& p, std::int32_t site) const {
-    const Vec3 apart = seen_.seen(site, p) - seen_.seen(p);
+  /// \param seen p, as SeenMesh::seen() gives it.
+  double square_of(const Position& p, const Vec3& seen, std::int32_t site) const {
+    const Vec3 apart = seen_.seen(site, p) - seen;
     return dot(apart, apart);
   }
 
   /// A site, and the square of its distance up to rounding.
   struct Candidate {
-    double square;
+    double square, beyond; ///< beyond(square)
     std::int32_t site;
     Corner corner = no_corner; ///< at the site, until its neighbours have been visited
   };
@@ -185,7 +187,7 @@ private:
   class Nearest {
   public:
     Nearest(const SiteSearch& in, const Position& p, std::size_t count)
-        : in_(in), p_(p), count_(count) {
+        : in_(in), p_(p), seen_(in.seen_.seen(p)), count_(count) {
       found_.reserve(count + 1);
     }
 
@@ -194,9 +196,10 @@ private:
 
     /// Does nothing for a site that is known.
     void consider(std::int32_t site, Corner corner = no_corner) {
-      const Candidate candidate{in_.square_of(p_, site), site, corner};
-      if (candidate.square > limit_)
+      const double square = in_.square_of(p_, seen_, site);
+      if (square > limit_)
         return;
+      const Candidate candidate{square, in_.beyond(p_, square), site, corner};
       const auto at =
           std::upper_bound(found_.begin(), found_.end(), candidate,
                            [&](const Candidate& a, const Candidate& b) { return is_before(a, b); });
@@ -207,7 +210,7 @@ private:
       if (found_.size() > count_)
         found_.pop_back();
       if (found_.size() == count_)
-        limit_ = in_.beyond(p_, found_.back().square);
+        limit_ = found_.back().beyond;
     }
 
     /// A corner at the nearest site whose neighbours have not been visited; then they have. None if
@@ -223,7 +226,7 @@ private:
 
   private:
     bool is_before(const Candidate& a, const Candidate& b) const {
-      if (a.square > in_.beyond(p_, b.square) || b.square > in_.beyond(p_, a.square))
+      if (a.square > b.beyond || b.square > a.beyond)
         return a.square < b.square;
       const int order = in_.seen_.compare(p_, a.site, b.site);
       return order < 0 || (order == 0 && a.site < b.site);
@@ -231,6 +234,7 @@ private:
 
     const SiteSearch& in_;
     const Position& p_;
+    Vec3 seen_; ///< p
     std::size_t count_;
     double limit_ = std::numeric_limits<double>::infinity();
     std::vector<Candidate> found_;
@@ -243,11 +247,14 @@ private:
   /// for.
   /// \returns false where the mesh lacks neighbours.
   bool visit_neighbours(const Position& p, const End& end, Nearest& nearest) const {
-    std::vector<Corner> first{end.corner};
-    if (end.tied && !add_ties(p, first))
-      return false;
-    for (const Corner& corner : first)
-      nearest.consider(site_at(faces_, corner), corner);
+    nearest.consider(site_at(faces_, end.corner), end.corner);
+    if (end.tied) {
+      std::vector<Corner> ties{end.corner};
+      if (!add_ties(p, ties))
+        return false;
+      for (const Corner& corner : ties)
+        nearest.consider(site_at(faces_, corner), corner);
+    }
     for (Corner here = nearest.next(); exists(here); here = nearest.next())
       if (!for_each_neighbour(
               here, [&](std::int32_t site, Corner corner) { nearest.consider(site, corner); }))
